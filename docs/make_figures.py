@@ -146,18 +146,7 @@ def draw_paths(pair: np.ndarray, analysis: kineme.Analysis) -> None:
     """The connected components inside one activity, and the paths and cuts they give."""
     first, stop = analysis.borders[ZOOMED : ZOOMED + 2].tolist()
     image, extent = components(analysis.graph, first, stop)
-    found = find_primitive_cuts(
-        analysis.graph,
-        (first, stop),
-        steps=PRESET.steps,
-        skip_penalty=PRESET.skip_penalty * PRESET.radius,
-        zero_cost=PRESET.zero_cost,
-        min_nodes=int(np.ceil(PRESET.min_path * FPS)),
-        separation=PRESET.frames(PRESET.path_separation or 0),
-        max_slope=PRESET.max_slope,
-        symmetry=PRESET.symmetry,
-        min_length=PRESET.min_primitive * FPS,
-    )
+    found = find_primitive_cuts(analysis.graph, (first, stop), PRESET)
     colors = ListedColormap(["white", *PALETTE])
     pair[0].imshow(image, cmap=colors, vmin=0, vmax=len(PALETTE), extent=extent)
     pair[0].set_title("connected components", loc="left", fontsize=10)

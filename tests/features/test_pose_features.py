@@ -24,6 +24,7 @@ from kineme.features import (
     stack,
 )
 from kineme.recordings import Motion, Skeleton
+from kineme.recordings.operations import move, scale, turn
 
 RECORDING = synthesize([Action("walk", 2), Action("kick", 2)], fps=30, seed=3).motion
 OFFSETS = st.lists(st.integers(-40, 40), min_size=1, max_size=6, unique=True)
@@ -48,32 +49,22 @@ def test_equal_to_the_naive_version() -> None:
     np.testing.assert_allclose(pose_features(RECORDING), expected, atol=1e-12)
 
 
-@given(st.floats(-7, 7), st.tuples(*[st.floats(-100, 100)] * 3), st.sampled_from([True, False]))
+@given(
+    st.floats(-7, 7),
+    st.tuples(*[st.floats(-100, 100)] * 3),
+    st.floats(0.01, 100),
+    st.sampled_from([True, False]),
+)
 @settings(max_examples=40)
-def test_moving_and_turning_change_nothing(
-    angle: float, shift: tuple[float, float, float], with_rotations: bool
+def test_moving_and_turning_change_nothing_and_scaling_scales(
+    angle: float, shift: tuple[float, float, float], factor: float, with_rotations: bool
 ) -> None:
-    turn = Rotation.from_euler("y", angle)
-    positions = turn.apply(RECORDING.positions.reshape(-1, 3).copy()) + shift
-    rotations = RECORDING.rotations.copy()
-    first = Rotation.from_quat(rotations[:, 0], scalar_first=True)
-    rotations[:, 0] = (turn * first).as_quat(scalar_first=True)
     still = RECORDING if with_rotations else replace(RECORDING, rotations=None)
-    moved = replace(
-        still,
-        positions=positions.reshape(RECORDING.positions.shape),
-        rotations=rotations if with_rotations else None,
-    )
-    np.testing.assert_allclose(pose_features(moved), pose_features(still), atol=1e-10)
-
-
-@given(st.floats(0.01, 100))
-@settings(max_examples=20)
-def test_scaling_scales(scale: float) -> None:
-    skeleton = replace(RECORDING.skeleton, offsets=scale * RECORDING.skeleton.offsets)
-    larger = replace(RECORDING, skeleton=skeleton, positions=scale * RECORDING.positions)
-    expected = scale * pose_features(RECORDING)
-    np.testing.assert_allclose(pose_features(larger), expected, rtol=1e-9, atol=1e-9)
+    expected = pose_features(still)
+    moved = move(turn(still, angle), shift)
+    np.testing.assert_allclose(pose_features(moved), expected, atol=1e-10)
+    larger = pose_features(scale(still, factor))
+    np.testing.assert_allclose(larger, factor * expected, rtol=1e-9, atol=1e-9)
 
 
 def test_left_is_x_up_is_y_ahead_is_z() -> None:

@@ -6,10 +6,16 @@ import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from kineme.methods.region_growing import BASIC_STEPS
 from kineme.methods.region_growing.neighbors import NeighborGraph
-from kineme.methods.region_growing.warping import BASIC_STEPS, WarpingPaths
+from kineme.methods.region_growing.preset import KRUEGER2017
+from kineme.methods.region_growing.warping import WarpingPaths
 
 Pairs = dict[tuple[int, int], np.float32]
+PRESET = KRUEGER2017.replace(working_fps=1.0, min_path=2.0, cluster_min_path=2.0)
+"""Times in frames; otherwise the defaults of `kineme.warping_paths`."""
+STEPS = st.sampled_from([BASIC_STEPS, ((1, 1), (2, 1), (1, 2), (3, 3))])
+"""Steps to each neighbour, and steps that skip rows or columns."""
 
 
 def as_pairs(graph: NeighborGraph) -> Pairs:
@@ -84,21 +90,3 @@ def block_graphs(draw: st.DrawFn, *, max_frames: int = 60, min_lag: int = 2) -> 
         for i, j in zip(*np.nonzero(filled & (lags >= min_lag)), strict=True)
     }
     return as_graph(pairs, n)
-
-
-@st.composite
-def staircases(draw: st.DrawFn) -> list[tuple[int, int]]:
-    """A path of neighbouring pairs, both frames never falling, over two rows at least."""
-    at = (draw(st.integers(0, 8)), draw(st.integers(0, 8)))
-    path = [at, at := (at[0] + 1, at[1])]
-    steps = draw(st.lists(st.sampled_from([*BASIC_STEPS, (2, 1), (1, 2), (3, 3)]), max_size=10))
-    return path + [at := (at[0] + a, at[1] + b) for a, b in steps]
-
-
-def flatten_paths(
-    paths: list[list[tuple[int, int]]],
-) -> tuple[NDArray[np.signedinteger], NDArray[np.signedinteger], NDArray[np.signedinteger]]:
-    """Pointers, rows and columns, as kernels take them."""
-    nodes = np.array([node for path in paths for node in path], np.int32).reshape(-1, 2)
-    ptr = np.cumsum([0, *map(len, paths)]).astype(np.int64)
-    return ptr, np.ascontiguousarray(nodes[:, 0]), np.ascontiguousarray(nodes[:, 1])

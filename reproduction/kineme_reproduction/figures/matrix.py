@@ -9,7 +9,6 @@ components, and the cheapest warping paths that hold.
 from __future__ import annotations
 
 from itertools import pairwise
-from math import ceil
 from pathlib import Path
 
 import numpy as np
@@ -88,18 +87,7 @@ def plot_paths(
     for axes, image in zip(panels, (shades, groups, shades), strict=True):
         axes.imshow(image, extent=extent, interpolation="nearest")
         axes.tick_params(labelsize=7, length=2)
-    paths = find_primitive_cuts(
-        graph,
-        (first, min(stop, len(graph) - 1)),
-        steps=preset.steps,
-        skip_penalty=preset.skip_penalty * preset.radius,
-        zero_cost=preset.zero_cost,
-        min_nodes=ceil(preset.min_path * fps),
-        separation=round((preset.path_separation or 0) * fps) or None,
-        max_slope=preset.max_slope,
-        symmetry=preset.symmetry,
-        min_length=preset.min_primitive * fps,
-    ).paths
+    paths = find_primitive_cuts(graph, (first, min(stop, len(graph) - 1)), preset).paths
     lines = [np.column_stack([columns, rows]) / fps for rows, columns in paths]
     panels[2].add_collection(LineCollection(lines, colors="#D62728", linewidths=1.3))
     cuts = analysis.primitives

@@ -37,8 +37,8 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.errors import MotionError
+from kineme.features import mirroring
 from kineme.features.effectors import PARTS, Names, end_effectors
-from kineme.features.mirroring import EXCHANGED, FLIP
 from kineme.features.pose import find_facing, round_offsets, stack
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.joint_names import SIDES, TWIST, find_joints, has_word
@@ -88,6 +88,8 @@ FEATURE_DIMS = 40
 """Numbers in a feature."""
 POSE_FPS = 30.0
 """Poses per second; every second pose becomes a feature."""
+BASIS = Path(__file__).with_name("canonical_basis.npz")
+"""Mean of stacked poses and axes, each divided by its shrunk deviation."""
 _SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0
 """Weights of the smoothing of positions, over 0.17 s."""
 
@@ -95,17 +97,8 @@ _SMOOTHING = np.array([0.25, 0.75, 1.0, 0.75, 0.25]) / 3.0
 def match_canonical_joints(motion: Motion, *, effectors: Names | None = None) -> dict[str, Points]:
     """Return the points of the motion whose mean is each of `JOINTS`.
 
-    Knees, elbows and shoulders that were not found are left out.
-
-    Parameters
-    ----------
-    motion : Motion
-    effectors : joints, optional
-        Joints to use as head, hands and feet if their names are not recognised.
-
-    Returns
-    -------
-    dict of str to tuple of int
+    Knees, elbows and shoulders that were not found are left out. ``effectors`` are joints to use as
+    head, hands and feet if their names are not recognised.
 
     Raises
     ------
@@ -129,13 +122,8 @@ def find_limbs(
 ) -> dict[str, Points]:
     """Return the joints of arms and legs; those that are not found are left out.
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-    ends : mapping of str to int
-        Ankles and wrists; missing ones are searched by name.
-    single : bool
-        Return only joints that are a single point, not the mean of several.
+    ``ends`` are ankles and wrists; missing ones are searched by name. With ``single``, joints that
+    are the mean of several points are left out, too.
     """
     named = find_joints(skeleton.names, _NAMED, single=single)
     joints: dict[str, Points] = {}
@@ -186,20 +174,10 @@ def _find_top_and_middle(skeleton: Skeleton, chain: list[int]) -> tuple[int, int
 def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     """Compute canonical poses (frames, 17).
 
-    They hold x, y, z of ankles, head and wrists, left before right, then height and rise.
-
-    Parameters
-    ----------
-    joints : mapping of str to (frames, 3) array
-        Metres, y up, by the names of `kineme.features.canonical.JOINTS`. Without knee or
-        elbow, a limb is as long as its largest reach. Without shoulders, these are parallel to
-        the hips.
-    fps : float
-        Frames per second.
-
-    Returns
-    -------
-    ndarray
+    They hold x, y, z of ankles, head and wrists, left before right, then height and rise. The
+    positions of joints (frames, 3), named as in `JOINTS`, are in metres, y up. Without knee or
+    elbow, a limb is as long as its largest reach. Without shoulders, these are parallel to the
+    hips.
     """
     pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
     hips = _normalize_vectors(joints["left_hip"] - joints["right_hip"])
@@ -254,8 +232,7 @@ def mirror_poses(poses: Floats) -> Floats:
     True
     """
     # The first 15 numbers are five points; height and rise do not change.
-    ends = poses[:, :15].reshape(len(poses), len(EXCHANGED), 3)[:, EXCHANGED] * FLIP
-    return np.hstack([ends.reshape(len(poses), -1), poses[:, 15:]])
+    return np.hstack([mirroring.mirror_features(poses[:, :15]), poses[:, 15:]])
 
 
 def _compute_limb(
@@ -368,8 +345,12 @@ def compute_features_and_poses(
     """Return the results of both `matching_features` and `matching_poses`, in one pass."""
     at_rate = resample(motion, POSE_FPS)
     poses = compute_poses(at_rate, effectors=effectors)
-    stacked = stack_poses(mirror_poses(poses) if mirrored else poses)
-    features = compute_directions(stacked, *load_basis())
+    shown = mirror_poses(poses) if mirrored else poses
+    # Neighbours are 3 and 6 frames away, so stack first and thin out to 15 Hz afterwards.
+    stacked = stack(shown, round_offsets(OFFSETS_S, POSE_FPS))[::2]
+    mean, axes = load_basis()
+    # Directions of stacked poses from the mean, in the axes.
+    features = _normalize_vectors((stacked - mean) @ axes).astype(np.float32)
     for start, stop in at_rate.gaps:
         # Convert gaps from 30 Hz to 15 Hz, rounded up to the first kept frame inside.
         features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
@@ -383,17 +364,6 @@ def compute_poses(motion: Motion, *, effectors: Names | None = None) -> Floats:
         for joint, points in match_canonical_joints(motion, effectors=effectors).items()
     }
     return compute_canonical_poses(joints, motion.fps)
-
-
-def stack_poses(poses: Floats) -> Floats:
-    """Stack poses at 30 Hz with their neighbours and return every second one, (n, 85)."""
-    # Neighbours are 3 and 6 frames away, so stack first and thin out afterwards.
-    return stack(poses, round_offsets(OFFSETS_S, POSE_FPS))[::2]
-
-
-def compute_directions(stacked: Floats, mean: Floats, axes: Floats) -> NDArray[np.float32]:
-    """Return unit vectors (frames, 40): directions of stacked poses from the mean, in the axes."""
-    return _normalize_vectors((stacked - mean) @ axes).astype(np.float32)
 
 
 def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -428,9 +398,9 @@ def _make_mirror_matrix() -> Floats:
 
 
 @cache
-def load_basis() -> tuple[Floats, Floats]:
-    """Return the mean (85,) and the axes (85, 40), each divided by its shrunk deviation."""
-    with np.load(Path(__file__).with_name("canonical_basis.npz"), allow_pickle=False) as arrays:
+def load_basis(path: Path = BASIS) -> tuple[Floats, Floats]:
+    """Return the mean and the axes of a file: of features, the mean (85,) and axes (85, 40)."""
+    with np.load(path, allow_pickle=False) as arrays:
         return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 

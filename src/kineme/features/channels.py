@@ -46,20 +46,14 @@ class Reduction(NamedTuple):
     """A linear map that shrinks some directions of the space of channels, then scales channels.
 
     Stored by its directions, as the matrix would have channels² entries.
-
-    Attributes
-    ----------
-    directions : (channels, shrunk) array
-        Orthonormal columns.
-    factors : (shrunk,) array
-        Factor of each direction; other directions do not change.
-    scales : (channels,) array
-        Factor of each channel, applied afterwards.
     """
 
     directions: Floats
+    """Orthonormal columns, (channels, shrunk)."""
     factors: Floats
+    """Factor of each direction; other directions do not change."""
     scales: Floats
+    """Factor of each channel, applied afterwards."""
 
     def apply(self, rows: Floats) -> Floats:
         """Apply the map to rows (samples, channels)."""
@@ -76,30 +70,11 @@ class Mixture(NamedTuple):
 
 
 def resample_channels(values: ArrayLike, fps: float, new: float, *, smoothing: float) -> Floats:
-    """Resample channels to the times 0, 1/new, 2/new, … up to their last frame.
+    """Resample channels (frames, channels) to the times 0, 1/new, 2/new, … up to the last frame.
 
     Each value is the mean over `smoothing` seconds around its time, or over one frame of the old or
     new rate if that is longer, which avoids aliasing. Values between frames are interpolated
-    linearly. At the ends the window is cut.
-
-    Parameters
-    ----------
-    values : (frames, channels) array
-    fps : float
-        Frames per second.
-    new : float
-        New frames per second.
-    smoothing : float
-        Length of the window, s.
-
-    Returns
-    -------
-    (samples, channels) array
-
-    Raises
-    ------
-    ParameterError
-        A rate is out of range.
+    linearly. At the ends the window is cut. Raise ParameterError if a rate is out of range.
     """
     check_rates(fps, new)
     array = np.asarray(values, np.float64)
@@ -137,25 +112,11 @@ def standardize_channels(values: ArrayLike) -> Floats:
 def compute_channel_statistics(
     channels: Floats, fps: float, *, rate: float, window: float, bands: tuple[float, ...]
 ) -> Floats:
-    """Compute means and energies of channels.
+    """Compute means and energies of channels (frames, channels) with equal deviations.
 
-    Parameters
-    ----------
-    channels : (frames, channels) array
-        With equal deviations.
-    fps : float
-        Frames per second.
-    rate : float
-        Samples per second of the result.
-    window : float
-        Window of means and energies, s.
-    bands : tuple of float
-        Edges of the frequency bands, Hz, ascending; bands beyond the rate are left out.
-
-    Returns
-    -------
-    (samples, channels * groups) array
-        One group of means, then one group of energies for each band.
+    Return `rate` samples per second: one group of means over a window of so many seconds, then one
+    group of energies for each band. The edges of the frequency bands are ascending, in Hz; bands
+    beyond the rate are left out.
 
     Examples
     --------
@@ -199,7 +160,7 @@ def compute_statistics(
         for chosen, reduction in mixtures:
             mixed = band if len(chosen) == channels.shape[1] else band[:, chosen]
             mixed = mixed if reduction is None else reduction.apply(mixed)
-            group.append(_compute_means(mixed, first, last, squared=edge is not None))
+            group.append(compute_means(mixed, first, last, squared=edge is not None))
         groups.append(group)
     # One array per mixture, with means and bands side by side.
     return [np.hstack(each) for each in zip(*groups, strict=True)]
@@ -213,7 +174,7 @@ def choose_frames(frames: int, fps: float, rate: float) -> Ints:
     return at
 
 
-def _compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool) -> Floats:
+def compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool = False) -> Floats:
     """Return the means, or root mean squares, over the frames from first to last."""
     sums = np.zeros((len(values) + 1, values.shape[1]))
     # Square in place, to avoid a second copy of a long recording.
@@ -227,14 +188,8 @@ def _compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool) ->
 def filter_low(values: Floats, fps: float, cutoff: float, padding: int) -> Floats:
     """Remove frequencies above the cutoff, in Hz, from values (frames, channels).
 
-    Parameters
-    ----------
-    values : (frames, channels) array
-    fps : float
-    cutoff : float
-        Less than half of `fps`.
-    padding : int
-        Number of frames by which the ends are extended; less than the number of frames.
+    The cutoff is less than half of `fps`. The ends are extended by `padding` frames, fewer than
+    there are.
 
     Examples
     --------
@@ -252,14 +207,8 @@ def filter_low(values: Floats, fps: float, cutoff: float, padding: int) -> Float
 def filter_band(values: Floats, fps: float, low: float, high: float, padding: int) -> Floats:
     """Keep only frequencies between two limits, in Hz, of values (frames, channels).
 
-    Parameters
-    ----------
-    values : (frames, channels) array
-    fps : float
-    low, high : float
-        Less than half of `fps`. The result is 0 if the band is empty.
-    padding : int
-        Number of frames by which the ends are extended; less than the number of frames.
+    The limits are less than half of `fps`; the result is 0 if the band is empty. The ends are
+    extended by `padding` frames, fewer than there are.
     """
     if low >= high:
         return np.zeros_like(values)

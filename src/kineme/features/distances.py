@@ -114,12 +114,8 @@ def compute_distance_features(positions: ArrayLike) -> tuple[Floats, Indices]:
 def choose_spread_points(positions: Floats, most: int = MAX_POINTS) -> Indices:
     """Choose at most ``most`` points that are far from each other on average, ascending.
 
-    Fixed points of the laboratory, which do not move while the others do, are left out,
-    and so are duplicates.
-
-    Parameters
-    ----------
-    positions : ndarray of shape (frames, points, 3)
+    Positions are (frames, points, 3). Fixed points of the laboratory, which do not move while the
+    others do, are left out, and so are duplicates.
     """
     n = positions.shape[1]
     # Candidates are evenly spread over all points.
@@ -213,16 +209,11 @@ def have_bones(positions: ArrayLike) -> bool:
         return False
     # Variance of each point, summed over the three axes.
     variances = array.var(axis=0).sum(axis=1)
-    bends = False
-    for point in range(array.shape[1]):
-        distances = np.linalg.norm(array - array[:, point, None], axis=2)
-        deviation = distances.std(axis=0)
-        # Approximate deviation of the distance of two points that move independently.
-        independent = np.sqrt(variances + variances[point])
-        is_joined = deviation < MAX_BONE_DEVIATION * independent
-        is_joined[point] = False
-        if not is_joined.any():
-            return False
-        # A body bends: some distance varies.
-        bends = bends or bool((deviation > MIN_BENDING * distances.mean(axis=0)).any())
-    return bends
+    means, deviations = _measure_pair_distances(array)
+    # Approximate deviation of the distance of two points that move independently.
+    independent = np.sqrt(np.add.outer(variances, variances))
+    is_joined = deviations < MAX_BONE_DEVIATION * independent
+    np.fill_diagonal(is_joined, False)
+    # A body bends: some distance varies.
+    bends = deviations > MIN_BENDING * means
+    return bool(is_joined.any(axis=1).all() and bends.any())

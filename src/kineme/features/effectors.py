@@ -232,12 +232,8 @@ class _Limb:
 def find_by_shape(parents: Sequence[int], pose: Floats) -> dict[str, int]:
     """Return joints by part ("left_ankle", ..., "head"), as far as they are found by shape.
 
-    Parameters
-    ----------
-    parents : sequence of int
-        Index of each joint's parent, -1 for a root.
-    pose : ndarray of shape (joints, 3)
-        Metres, y up: a pose in which the legs are the lower limbs.
+    A root has the parent -1. The pose (joints, 3), in metres with y up, is one in which the legs
+    are the lower limbs.
     """
     paths, lengths = _find_longest_paths(parents, pose)
     pairs = _find_limb_pairs(parents, paths, lengths, pose)[:2]
@@ -391,14 +387,7 @@ def _measure_chain(motion: Motion, joint: int) -> float:
 
 
 def measure_speed(path: Floats, fps: float) -> Floats:
-    """Return the speed of a point in metres per second; 0 for a single frame.
-
-    Parameters
-    ----------
-    path : (frames, dims) array
-    fps : float
-        Frames per second.
-    """
+    """Return the speed of a point (frames, dims) in metres per second; 0 for a single frame."""
     if len(path) < 2:
         return np.zeros(len(path))
     return np.asarray(np.linalg.norm(np.gradient(path, axis=0), axis=1) * fps)
@@ -407,18 +396,10 @@ def measure_speed(path: Floats, fps: float) -> Floats:
 def find_low_and_slow(
     path: Floats, fps: float, *, height: float, speed: float
 ) -> NDArray[np.bool_]:
-    """Return the frames in which a point stands.
+    """Return the frames in which a point (frames, 3), in metres with y up, stands.
 
-    Parameters
-    ----------
-    path : (frames, 3) array
-        Metres, y up.
-    fps : float
-        Frames per second.
-    height : float
-        Metres above its lowest height, below which it is low.
-    speed : float
-        Metres per second, below which it is slow.
+    It stands while it is less than ``height`` metres above its lowest height, and slower than
+    ``speed`` metres per second.
     """
     # A low percentile is robust to tracking errors, unlike the minimum.
     low = path[:, 1] < np.percentile(path[:, 1], GROUND_PERCENTILE) + height

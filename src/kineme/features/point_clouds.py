@@ -26,14 +26,8 @@ PAIRS_AT_ONCE = 2048
 def compute_cloud_distances(points: Floats, rows: slice, columns: slice, *, half: int) -> Floats:
     """Return the distances of clouds around frames of ``rows`` and of ``columns``, in metres.
 
-    Parameters
-    ----------
-    points : ndarray of shape (frames, joints, 3)
-        Metres, y up.
-    rows, columns : slice
-        Spans of frames.
-    half : int
-        Frames of the window on each side; the first and last frame are repeated.
+    Points (frames, joints, 3) are in metres, y up. A window has ``half`` frames on each side; the
+    first and last frame are repeated.
     """
     floor_a, height_a, _ = _make_clouds(points, np.arange(rows.start, rows.stop), half)
     floor_b, height_b, _ = _make_clouds(points, np.arange(columns.start, columns.stop), half)
@@ -52,14 +46,8 @@ def fit_clouds(
 ) -> tuple[Floats, Floats, Floats]:
     """Return the distance of each pair of frames, and how to lay the second onto the first.
 
-    Parameters
-    ----------
-    points : ndarray of shape (frames, joints, 3)
-        Metres, y up.
-    first, second : ndarray of shape (pairs,)
-        Frames.
-    half : int
-        Frames of the window on each side; the first and last frame are repeated.
+    Points and windows are those of `compute_cloud_distances`; ``first`` and ``second`` hold the
+    frames of the pairs.
 
     Returns
     -------

@@ -289,18 +289,8 @@ def round_offsets(offsets_s: Sequence[float], fps: float) -> tuple[int, ...]:
 def compute_joint_quaternions(motion: Motion) -> Floats:
     """Return the local rotations of the 14 joints: unit quaternions (w, x, y, z) with w >= 0.
 
-    Parameters
-    ----------
-    motion : Motion
-
-    Returns
-    -------
-    (frames, 14, 4) array
-
-    Raises
-    ------
-    MotionError
-        The motion has no rotations, or lacks one of these joints.
+    The result is (frames, 14, 4). Raise MotionError if the motion has no rotations, or lacks one of
+    these joints.
     """
     if motion.rotations is None:
         raise MotionError("these methods need rotations, but the motion has positions only")
@@ -317,16 +307,9 @@ def compute_joint_quaternions(motion: Motion) -> Floats:
 
 
 def compute_log_maps(quaternions: Floats) -> Floats:
-    """Return half of the rotation vector of each quaternion.
+    """Return half of the rotation vector of each quaternion (frames, joints, 4) with w >= 0.
 
-    Parameters
-    ----------
-    quaternions : (frames, joints, 4) array
-        With w >= 0.
-
-    Returns
-    -------
-    (frames, 3 * joints) array
+    The result is (frames, 3 * joints).
     """
     half = np.arccos(np.clip(quaternions[..., :1], -1, 1))
     # `sinc(half / pi)` is sin(half) / half, and 1 at the identity, which avoids a division by 0.

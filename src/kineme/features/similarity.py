@@ -186,7 +186,9 @@ def _stack_levels(values: Floats, fps: float, seconds: float) -> SimilarityMatri
     squares, counts = total**2, visible.astype(float)[:, None]
     levels = [np.where(visible[:, None], total, np.nan).astype(np.float32)]
     while len(total) > COARSEST:
-        total, squares, counts = (_sum_pairs(sums) for sums in (total, squares, counts))
+        # Sums of pairs of neighbouring rows; an odd last row stays alone.
+        pairs = np.arange(0, len(total), 2)
+        total, squares, counts = (np.add.reduceat(s, pairs) for s in (total, squares, counts))
         # 0 / 0 in gaps.
         with np.errstate(invalid="ignore"):
             mean = total / counts
@@ -204,8 +206,3 @@ def _sample_at(values: Floats, times: Floats, fps: float) -> Floats:
     after = np.minimum(before + 1, len(values) - 1)
     share = (positions - before)[:, None]
     return np.asarray((1 - share) * values[before] + share * values[after])
-
-
-def _sum_pairs(sums: Floats) -> Floats:
-    """Return sums of pairs of neighbouring rows; an odd last row stays alone."""
-    return np.add.reduceat(sums, np.arange(0, len(sums), 2), axis=0)

@@ -378,10 +378,8 @@ class Preset(ABC):
 
     def constants(self) -> tuple[Constant, ...]:
         """Return the constants in the order of the fields, with meaning, unit, value and limits."""
-        hints, defaults = (
-            _get_type_hints(type(self)),
-            {each.name: each.default for each in fields(self)},
-        )
+        hints = _get_type_hints(type(self))
+        defaults = {each.name: each.default for each in fields(self)}
         return tuple(
             Constant(
                 name, value=getattr(self, name), hint=hints[name], default=defaults[name], **details

@@ -52,15 +52,7 @@ jitter as much as hands move."""
 
 @dataclass(frozen=True)
 class RecordedSpan:
-    """A span of a recording without gaps.
-
-    Attributes
-    ----------
-    start, stop : int
-        Frames of the recording.
-    n_samples : int
-        Number of samples at the working rate.
-    """
+    """A span of a recording without gaps: its frames, and its samples at the working rate."""
 
     start: int
     stop: int
@@ -69,38 +61,24 @@ class RecordedSpan:
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """Features of a recording at the working rate of a preset.
-
-    Attributes
-    ----------
-    features : sequence of (samples, dims) arrays
-        One array for each span without gaps.
-    spans : sequence of RecordedSpan
-    notes : sequence of str
-        How the features were made, for the result's notes.
-    mirror : callable, optional
-        Swaps left and right in the features; None if they have no sides.
-    joints : bool
-        Whether the features are distances between joints, made from channels.
-    """
+    """Features of a recording at the working rate of a preset."""
 
     features: Sequence[Floats]
+    """One array (samples, dims) for each span without gaps."""
     spans: Sequence[RecordedSpan]
     notes: Sequence[str]
+    """How the features were made, for the result's notes."""
     mirror: Mirror | None = None
+    """Swaps left and right in the features; None if they have no sides."""
     joints: bool = False
+    """Whether the features are distances between joints, made from channels."""
 
 
 def prepare_motion(motion: Motion, preset: Preset, effectors: Names | None) -> Prepared:
     """Return the features of a motion between its gaps, at the working rate of the preset.
 
-    Parameters
-    ----------
-    motion : Motion
-    preset : Preset
-    effectors : joints, optional
-        Joints to use as head, hands and feet if their names are not recognised. If no body is
-        found, features are distances between points.
+    ``effectors`` are joints to use as head, hands and feet if their names are not recognised. If no
+    body is found, features are distances between points.
 
     Raises
     ------
@@ -200,18 +178,10 @@ def prepare_signals(
 ) -> Prepared:
     """Return the features of signals between their gaps, at the working rate of the preset.
 
-    Parameters
-    ----------
-    signals : Signals
-    preset : Preset
-        A preset for signals, see `kineme.methods.resolve_preset`.
-    emg : bool
-        Compute the envelopes of muscle signals first.
-    standardize : bool
-        Divide each channel by its standard deviation.
-    unit : float, optional
-        Distance of features that is one unit of the preset's lengths, in standard deviations, or in
-        the unit of the channels if these are not standardised. By default the preset estimates it.
+    The preset is one for signals, see `kineme.methods.resolve_preset`. With ``emg``, envelopes of
+    muscle signals are computed first. With ``standardize``, channels are divided by their standard
+    deviations. A distance of ``unit``, in these or else in the unit of the channels, is one unit of
+    the preset's lengths; by default the preset estimates it.
     """
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     rows, spans = [], []
@@ -273,14 +243,7 @@ def _describe_channels(
 def find_joints(signals: Signals) -> Indices | None:
     """Find the channels that are x, y and z of a body's points, by their names and bone lengths.
 
-    Parameters
-    ----------
-    signals : Signals
-
-    Returns
-    -------
-    (points, 3) array or None
-        None if there is no body.
+    Return an array (points, 3), or None if there is no body.
     """
     points = [
         [signals.names.index(axes[axis]) for axis in AXES]
@@ -297,14 +260,8 @@ def find_joints(signals: Signals) -> Indices | None:
 def replace_by_distances(rows: Sequence[Floats], points: Indices, fps: float) -> list[Floats]:
     """Replace the coordinates of points by features of the distances between them.
 
-    Parameters
-    ----------
-    rows : sequence of (samples, channels) array
-        One array for each span of the recording.
-    points : (points, 3) array
-        Channels that are coordinates.
-    fps : float
-        Samples per second.
+    There is one array of rows (samples, channels) for each span of the recording. ``points``
+    (points, 3) are the channels that are coordinates.
     """
     from scipy.ndimage import gaussian_filter1d
 

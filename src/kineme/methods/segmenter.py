@@ -170,20 +170,7 @@ def segment_with_options(
 ) -> tuple[Segmentation, Found]:
     """Return the same as `segment_and_found`, for options in one object.
 
-    Parameters
-    ----------
-    recording : Motion or Signals
-        At least one frame.
-    options : SegmentOptions
-    progress : callable, optional
-        Called with the name of each stage before it runs.
-    details : tuple of float, optional
-        Details of the hierarchy; by default those that the method offers.
-
-    Returns
-    -------
-    segmentation : Segmentation
-    found : Found
+    ``details`` are those of the hierarchy; by default those that the method offers.
     """
     start = time.perf_counter()
     if not isinstance(recording, Motion | Signals):
@@ -459,20 +446,8 @@ def convert_to_frames(
 ) -> Columns:
     """Convert columns from samples to frames; cut at gaps, and fill these with transitions.
 
-    Rows shorter than one frame are dropped.
-
-    Parameters
-    ----------
-    columns : dict of str to array
-        Columns of a segment table, ``start_frame`` and ``stop_frame`` in samples.
-    spans : sequence of RecordedSpan
-        In time order.
-    n_frames : int
-        Length of the recording.
-    ratio : float
-        Frames per sample.
-    near : float
-        Borders at most this many samples from a gap are moved to the gap.
+    Spans are in time order, and ``ratio`` is the number of frames per sample. Borders at most
+    ``near`` samples from a gap are moved to the gap. Rows shorter than one frame are dropped.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []

@@ -49,7 +49,7 @@ def make_columns(
     confidence: tuple[Floats, Floats],
     border_confidence: tuple[Floats, Floats] | None = None,
 ) -> Columns:
-    """Return the columns of both levels.
+    """Return the columns of a segment table with activities and primitives.
 
     Parameters
     ----------
@@ -64,14 +64,8 @@ def make_columns(
         For activities, and for primitives.
     border_confidence : pair of arrays, optional
         Probability that the start of each is right, for activities and for primitives.
-
-    Returns
-    -------
-    dict of str to array
-        ``level``, ``kind``, ``start_frame``, ``stop_frame``, ``cluster``, ``confidence``, and
-        ``border_confidence`` if given.
     """
-    parents = np.searchsorted(activities, primitives[:-1], side="right") - 1
+    parents = find_segments(activities, primitives[:-1])
     primitive = is_activity[parents] if is_primitive is None else is_primitive
     columns = {
         "level": np.repeat(["activity", "primitive"], [len(activities) - 1, len(parents)]),
@@ -84,6 +78,12 @@ def make_columns(
     if border_confidence is not None:
         columns["border_confidence"] = np.concatenate(border_confidence)
     return columns
+
+
+def find_segments(borders: Ints, frames: Ints) -> Ints:
+    """Return the segment that contains each frame, by ascending starts; -1 before the first."""
+    segments: Ints = np.searchsorted(borders, frames, side="right") - 1
+    return segments
 
 
 def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
@@ -106,12 +106,8 @@ def number_by_appearance(labels: NDArray[np.integer]) -> Ints:
 def list_doubts(columns: Columns, fps: float) -> list[str]:
     """Return one sentence for each doubtful cluster or border: the five least certain.
 
-    Parameters
-    ----------
-    columns : dict of str to array
-        Columns of a segment table, with ``confidence`` and ``border_confidence``.
-    fps : float
-        Frames per second of the table.
+    The columns are those of a segment table in frames, at ``fps`` frames per second, with
+    ``confidence`` and ``border_confidence``.
     """
     doubts: list[Doubt] = []
     for row in np.flatnonzero(columns["level"] == "activity"):
@@ -121,34 +117,23 @@ def list_doubts(columns: Columns, fps: float) -> list[str]:
             start_s = columns["start_frame"][row] / fps
             doubts.append((border, f"check the border at {start_s:.2f} s"))
         if cluster < MIN_CONFIDENCE:
-            where = _format_span(columns, row, fps)
+            start, stop = (columns[f"{name}_frame"][row] / fps for name in ("start", "stop"))
+            where = f"at {start:.2f} to {stop:.2f} s"
             doubts.append((cluster, f"check the cluster of the activity {where}"))
     worst = sorted(doubts, key=lambda each: each[0])[:MAX_SENTENCES]
     return [f"{text} ({100 * probability:.0f} % sure)" for probability, text in worst]
 
 
-def _format_span(columns: Columns, row: np.integer, fps: float) -> str:
-    start, stop = (columns[f"{name}_frame"][row] / fps for name in ("start", "stop"))
-    return f"at {start:.2f} to {stop:.2f} s"
-
-
 @dataclass(frozen=True, eq=False)
 class FineSegments:
-    """Segments of the finest level, and the clusters of detail 1 that contain them.
-
-    Attributes
-    ----------
-    borders : (segments + 1,) array
-        Samples, including the borders of detail 1.
-    parents : (segments,) array
-        Cluster at detail 1 of each segment.
-    differences : (segments, segments) array
-        Differences of two segments, summed over pairs of samples; 0 if they are equal.
-    """
+    """Segments of the finest level, and the clusters of detail 1 that contain them."""
 
     borders: Ints
+    """Samples, including the borders of detail 1."""
     parents: Ints
+    """Cluster at detail 1 of each segment."""
     differences: Floats
+    """Differences of two segments, summed over pairs of samples; 0 if they are equal."""
 
 
 def assign_clusters(
@@ -156,12 +141,7 @@ def assign_clusters(
 ) -> dict[float, Ints]:
     """Return the cluster of each fine segment at each detail.
 
-    Parameters
-    ----------
-    fine : FineSegments
-    details : tuple of float
-    border_price, cluster_price : float
-        Costs of a border and of a cluster at detail 1.
+    The prices are the costs of a border and of a cluster at detail 1.
     """
     k = len(fine.parents)
     # A merge of neighbours saves the border between them.
@@ -204,14 +184,8 @@ def make_tables(
 ) -> dict[float, Columns]:
     """Return the table at each detail; of equal tables only the coarsest.
 
-    Tables that equal the one at detail 1 are left out.
-
-    Parameters
-    ----------
-    columns : dict of str to array
-        Columns at detail 1.
-    borders, clusters
-        As in `FineSegments`, and as returned by `assign_clusters`.
+    Tables that equal the one at detail 1 are left out. ``columns`` are those of detail 1,
+    ``borders`` as in `FineSegments`, ``clusters`` as returned by `assign_clusters`.
     """
     is_activity = columns["level"] == "activity"
     activities, primitives = (
@@ -245,28 +219,17 @@ def change_detail(
 ) -> Columns:
     """Return the columns of a table with other activities; every primitive border stays.
 
-    Parameters
-    ----------
-    before, inner : dict of str to array
-        Activities and primitives at detail 1.
-    starts, clusters : array of int
-        New activities: first samples, and clusters.
-    end : int
-        Where the last one ends.
-
-    Returns
-    -------
-    dict of str to array
+    ``before`` and ``inner`` are the activities and primitives at detail 1. The new activities begin
+    at ``starts``, have these clusters, and end at ``end``.
     """
     # Borders of activities are also borders of primitives.
     cuts = np.unique(np.concatenate([starts, inner["start_frame"]]))
     kinds = np.full(len(starts), "activity")
     activities = _make_rows(before, starts, end) | {"kind": kinds, "cluster": clusters}
     primitives = _make_rows(inner, cuts, end)
-    # The activity of each primitive: the last that begins at or before it.
-    parents = np.searchsorted(starts, cuts, side="right") - 1
+    parents = find_segments(starts, cuts)
     in_cluster = primitives["kind"] == "activity"
-    old_parents = np.searchsorted(before["start_frame"], inner["start_frame"], "right") - 1
+    old_parents = find_segments(before["start_frame"], inner["start_frame"])
     has_own = before["cluster"][old_parents] != inner["cluster"]
     # Every primitive is in the cluster of its activity, or some have clusters of their own.
     if not has_own[inner["kind"] == "activity"].any():
@@ -332,7 +295,7 @@ def _make_rows(source: Columns, starts: Ints, end: int) -> Columns:
     """
     order = np.argsort(source["start_frame"], kind="stable")
     # The source row in which each start lies.
-    source_rows = order[np.searchsorted(source["start_frame"][order], starts, side="right") - 1]
+    source_rows = order[find_segments(source["start_frame"][order], starts)]
     rows = {name: column[source_rows] for name, column in source.items()}
     same_start = rows["start_frame"] == starts
     rows["start_frame"] = starts

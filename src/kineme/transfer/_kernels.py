@@ -54,24 +54,23 @@ def warp_columns(products, squares, example_squares, first, sums, begins, rows, 
         starts[j] = begins[now, m]
 
 
-@njit("int64(int64[::1], int32[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
-def choose_apart(ends, starts, most, occupied, chosen):
-    """Choose at most ``most`` matches that do not overlap, in order; return their number.
+@njit("int64(int64[::1], int64[::1], int64, boolean[::1], int64[::1])", **OPTIONS)
+def choose_apart(starts, stops, most, occupied, chosen):
+    """Choose at most ``most`` spans that do not overlap, in order; return their number.
 
-    ``ends`` are the ends of matches in order of preference, ``starts[end]`` their starts. The ends
-    of the chosen ones are written to ``chosen``. ``occupied`` marks the samples of chosen matches.
+    The indices of the chosen ones are written to ``chosen``. ``occupied`` marks their samples.
     """
     n = 0
-    for end in ends:
+    for i in range(len(starts)):
         if n == most:
             break
         free = True
-        for j in range(starts[end], end + 1):
+        for j in range(starts[i], stops[i]):
             if occupied[j]:
                 free = False
                 break
         if free:
-            occupied[starts[end] : end + 1] = True
-            chosen[n] = end
+            occupied[starts[i] : stops[i]] = True
+            chosen[n] = i
             n += 1
     return n

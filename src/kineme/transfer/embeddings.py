@@ -23,16 +23,17 @@ that moves in another.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kineme._util.arrays import Float32s, Floats, Ints, interpolate_frames
+from kineme._util.arrays import Float32s, Floats, interpolate_frames
 from kineme._util.checks import as_features
 from kineme.errors import ParameterError
+from kineme.features.canonical import POSE_DIMS, load_basis
+from kineme.features.channels import compute_means
 from kineme.recordings import Signals
 
 RATE = 5.0
@@ -43,8 +44,8 @@ STILL = 0.05
 """Smallest movement that counts, as a share of the deviation of a channel in the collection."""
 DIMS = 32
 """Numbers in an embedding."""
-POSE_DIMS = 17
-"""Numbers in a pose."""
+AXES = Path(__file__).with_name("axes.npz")
+"""Mean (68,) and axes (68, 32) of the numbers that describe a segment."""
 _N_TERMS = 3
 """Number of terms of the cosine transform that are used directly."""
 _MAX_TERMS = 32
@@ -85,7 +86,7 @@ def embedding(poses: ArrayLike) -> NDArray[np.float32]:
             f"poses have {POSE_DIMS} numbers each, not {array.shape[1]}: matching_poses(motion) "
             "gives them"
         )
-    mean, axes = load_axes()
+    mean, axes = load_basis(AXES)
     values = (describe_curve(array) - mean) @ axes
     return np.asarray(values / max(float(np.linalg.norm(values)), 1e-9), np.float32)
 
@@ -97,13 +98,6 @@ def describe_curve(features: Floats) -> Floats:
     residual = np.sqrt((terms[_N_TERMS:] ** 2).sum(axis=0))
     numbers: Floats = np.concatenate([*terms[:_N_TERMS], _RESIDUAL_WEIGHT * residual])
     return numbers
-
-
-@cache
-def load_axes() -> tuple[Floats, Floats]:
-    """Return the mean (68,) and the axes (68, 32)."""
-    with np.load(Path(__file__).with_name("axes.npz"), allow_pickle=False) as arrays:
-        return arrays["mean"].astype(np.float64), arrays["axes"].astype(np.float64)
 
 
 class ChannelSamples(NamedTuple):
@@ -135,8 +129,8 @@ def compute_channel_samples(signals: Signals) -> ChannelSamples:
         spans = np.maximum(frames - half, 0), np.minimum(frames + half, n)
         # Centre first: cumulative sums of a large offset would lose precision.
         middle = values.mean(axis=0)
-        means = _compute_means(values - middle, *spans)
-        squares = _compute_means((values - middle) ** 2, *spans)
+        means = compute_means(values - middle, *spans)
+        squares = compute_means((values - middle) ** 2, *spans)
         deviations = np.sqrt(np.maximum(squares - means**2, 0.0))
         parts.append(np.column_stack([(first + frames) / signals.fps, means + middle, deviations]))
     return ChannelSamples(tuple(signals.names), np.concatenate(parts))
@@ -171,10 +165,3 @@ def thin_samples(rows: NDArray[Any], step: int) -> NDArray[Any]:
 def _split_means_and_deviations(rows: NDArray[Any]) -> tuple[Floats, Floats]:
     n = rows.shape[1] // 2
     return rows[:, 1 : 1 + n].astype(np.float64), rows[:, 1 + n :].astype(np.float64)
-
-
-def _compute_means(values: Floats, first: Ints, last: Ints) -> Floats:
-    # Cumulative sums: the sum of a span is the difference of two.
-    sums = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
-    means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
-    return means

@@ -27,7 +27,6 @@ Source: Vögele, Krüger and Klein 2014, section 6.1; the backward match is our 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -105,22 +104,19 @@ def search(
     # Choose matches that do not overlap greedily, the nearest first.
     ends = np.flatnonzero(np.isfinite(distances))
     ends = ends[np.argsort(distances[ends], kind="stable")]
-    chosen = np.empty(len(ends), np.int64)
-    most = len(ends) if top is None else int(top)
-    n = choose_apart(ends, starts, most, np.zeros(len(starts), np.bool_), chosen)
-    ends = chosen[:n]
+    ends = ends[choose_disjoint(starts[ends], ends + 1, len(starts), most=top)]
     return Matches(starts[ends].astype(np.int64), ends + 1, distances[ends])
 
 
-def choose_disjoint(starts: Iterable[int], stops: Iterable[int], n: int) -> Ints:
+def choose_disjoint(
+    starts: ArrayLike, stops: ArrayLike, n: int, *, most: int | None = None
+) -> Ints:
     """Return the indices of spans of ``n`` samples that overlap no preceding chosen span."""
-    occupied = np.zeros(n, np.bool_)
-    chosen = []
-    for i, span in enumerate(map(slice, starts, stops)):
-        if not occupied[span].any():
-            occupied[span] = True
-            chosen.append(i)
-    return np.array(chosen, np.int64)
+    firsts, ends = np.asarray(starts, np.int64), np.asarray(stops, np.int64)
+    chosen = np.empty(len(firsts), np.int64)
+    limit = len(firsts) if most is None else int(most)
+    count = choose_apart(firsts, ends, limit, np.zeros(n, np.bool_), chosen)
+    return chosen[:count]
 
 
 class Searched:

@@ -92,15 +92,6 @@ def find_scan_line_cuts(pairs, n, *, min_gap, min_count):
     return [cut - 1 for cut in forward], sorted(cut - 1 for cut in backward)
 
 
-def count_inner_neighbors(pairs, borders):
-    """Count the neighbours of each frame in its own block."""
-    block_of = [b for b in range(len(borders) - 1) for _ in range(borders[b], borders[b + 1])]
-    counts = [0] * len(block_of)
-    for i, j in pairs:
-        counts[i] += block_of[i] == block_of[j]
-    return counts
-
-
 def mark_coherent_paths(paths, share):
     """Mark paths that a path matches with rows and columns exchanged."""
     return [

@@ -68,28 +68,6 @@ def score_durations(visits, fps, longest, chance_period, chance_count, chance_du
     return even * (1 - max(fast, min(few, 1)))
 
 
-def match_columns(gains, full):
-    """Return the largest sum of a warping path through the gains, and the paths that have it.
-
-    Of each such path, its length, and how much of it counts, by gains as shares of ``full``.
-    Paths begin before the corner; steps of (1, 1) weigh 2, those of (1, 2) and (2, 1) weigh 3.
-    """
-
-    def ends(i, j, total, counted):
-        """Yield (sum, length, counted) of every continuation of a path."""
-        yield total, j + 1, counted
-        for down, right in ((1, 1), (1, 2), (2, 1)):
-            a, b = i + down, j + right
-            if a < len(gains) and b < len(gains[0]):
-                share = min(max(gains[a][b] / full, 0), 1)
-                sums = total + (down + right) * gains[a][b]
-                yield from ends(a, b, sums, counted + right * share)
-
-    found = list(ends(-1, -1, 0, 0))
-    best = max(total for total, _, _ in found)
-    return best, {(length, counted) for total, length, counted in found if total == best}
-
-
 def look_up_poses(poses, path, lengths):
     """Return the pose of the last frame at which the path is at most each of these lengths."""
     last = [max((f for f in range(len(poses)) if path[f] <= x), default=0) for x in lengths]
@@ -161,14 +139,6 @@ def measure_spread(view, start, stop):
     """Return half of the summed distances of samples of a span, divided by its length."""
     inside = view[start:stop]
     return sum(np.linalg.norm(a - b) for a in inside for b in inside) / (2 * len(inside))
-
-
-def follow_end(poses, path, lengths, mean, near, full):
-    gains = [
-        [near - ((pose - place) ** 2).sum() for place in mean]
-        for pose in look_up_poses(poses, path, lengths)
-    ]
-    return match_columns(gains, near - full)
 
 
 def compute_similarity_band(features, unit, width):

@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
 import hypothesis.strategies as st
 import numpy as np
 import pytest
@@ -10,9 +16,15 @@ from hypothesis import given, settings
 import naive
 from gestures import insert_gestures, make_wandering, stack_features
 from kineme.methods.kineme import _event_kernels as kernels
+from kineme.methods.kineme import events
 from kineme.methods.kineme.events import Occurrences, find_occurrences
 from kineme.methods.kineme.pipeline import analyze
 from kineme.methods.kineme.preset import KINEME
+from kineme.methods.kineme.primitives import (
+    Segments,
+    drop_still_clusters,
+    replace_by_occurrences,
+)
 
 seconds = settings(max_examples=40)
 
@@ -181,3 +193,139 @@ def test_backwards_is_another_movement() -> None:
     rows = insert_gestures(3, [100, 400])
     rows[400:440] = rows[400:440][::-1]
     assert len(found_in(rows)) == 0
+
+
+# Processor time, so that other programs do not count; memory beyond what compiled code needs.
+MEASURE = """
+import re, sys, time
+from pathlib import Path
+import numpy as np
+from gestures import stack_features, insert_gestures
+from kineme.methods.kineme.pipeline import analyze
+from kineme.methods.kineme.preset import KINEME
+from loops import make_swings
+
+def peak():  # rusage has that of the process that started this one, too
+    return int(re.search(r"VmHWM:\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
+
+parts = []
+for seed in range(6):
+    walk = make_swings(6 + seed, period=1 + seed / 10, axis=seed % 4)
+    parts += [walk, insert_gestures(seed, [100, 310, 555, 790])]
+PRESET = KINEME.replace(part=300.0)  # parts are done alone, so that two and four are compared
+frames = round(60 * 20 * PRESET.working_fps)
+rows = np.tile(np.resize(np.concatenate(parts), (frames, 6)), 2)
+rows = stack_features(rows + np.random.default_rng(0).normal(0, 0.01, rows.shape))
+analyze(rows[: round(15 * PRESET.working_fps)], PRESET)
+before = peak()
+for share in (2, 1):
+    start = time.process_time()
+    analyze(rows[: frames // share], PRESET)
+    print(time.process_time() - start, peak() - before)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="peak memory is read from /proc")
+def test_twice_as_long_takes_about_twice_the_time_and_memory() -> None:
+    helpers = str(Path(__file__).parents[2] / "helpers")
+    path = os.pathsep.join([helpers, *filter(None, [os.environ.get("PYTHONPATH")])])
+    env = {**os.environ, "PYTHONPATH": path}
+    command = [sys.executable, "-c", MEASURE]
+    done = subprocess.run(command, env=env, capture_output=True, text=True, check=True)
+    half, whole = (line.split() for line in done.stdout.splitlines())
+    for less, more in zip(half, whole, strict=True):
+        assert float(more) / float(less) < 2.6
+
+
+def found_in_legs(rows: np.ndarray, leg: float) -> Occurrences:
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(events, "LEG", leg)
+        return events.find_occurrences(rows, np.ones(len(rows), np.bool_), KINEME)
+
+
+def test_paths_that_are_longer_than_a_leg_are_found_as_without_one() -> None:
+    rows = np.vstack([insert_gestures(1, [100, 310, 555, 790])] * 4)
+    rows += np.random.default_rng(0).normal(0, 0.01, rows.shape)
+    whole, in_legs = found_in_legs(rows, 3600), found_in_legs(rows, 5)
+    assert in_legs.clusters.tolist() == whole.clusters.tolist()
+    assert np.abs(in_legs.starts - whole.starts).max() <= 1
+    assert np.abs(in_legs.stops - whole.stops).max() <= 1
+
+
+BORDERS = np.array([0, 100, 130, 300, 400])
+LABELS = np.array([0, -1, 1, 0])
+
+
+def segments() -> Segments:
+    """Make an activity of two repetitions, a transition, one repetition, and the first again."""
+    return Segments(
+        BORDERS,
+        LABELS,
+        np.array([0, 50, 100, 130, 300, 400]),
+        np.array([0, 0, -1, 1, 0]),
+        np.empty(0, np.int64),
+    )
+
+
+def occurring(*spans: tuple[int, int]) -> Occurrences:
+    starts, stops = np.array(spans, np.int64).reshape(-1, 2).T
+    return Occurrences(starts, stops, np.zeros(len(spans), np.int64), np.full(len(spans), 0.5))
+
+
+FREE = np.array([False, True, True, False])
+
+
+def test_occurrences_and_what_lies_between_are_the_primitives() -> None:
+    found = replace_by_occurrences(segments(), occurring((140, 180), (220, 260)), FREE)
+    assert found.primitives.tolist() == [0, 50, 100, 130, 140, 180, 220, 260, 300, 400]
+    assert found.clusters.tolist() == [0, 0, -1, -1, 2, -1, 2, -1, 0]
+    assert found.repeats.tolist() == [True, True] + 6 * [False] + [True]
+    assert found.borders.tolist() == BORDERS.tolist()
+    assert found.not_periodic.tolist() == [1]
+
+
+def test_numbers_go_on_after_repetitions_that_are_another_movement() -> None:
+    parts = replace(segments(), clusters=np.array([0, 3, -1, 2, 0]))
+    found = replace_by_occurrences(parts, occurring((140, 180), (220, 260)), FREE)
+    assert found.clusters.tolist() == [0, 2, -1, -1, 3, -1, 3, -1, 0]
+    untouched = replace_by_occurrences(parts, occurring(), np.zeros(4, np.bool_))
+    assert untouched.clusters.tolist() == [0, 2, -1, 3, 0]
+    assert untouched.not_periodic.size == 0
+
+
+@pytest.mark.parametrize(
+    ("spans", "borders", "labels"),
+    [
+        (((120, 180), (220, 260)), [0, 100, 120, 300, 400], [0, -1, 1, 0]),  # the nearer end
+        (((100, 135), (220, 260)), [0, 100, 135, 300, 400], [0, -1, 1, 0]),
+        (((100, 270), (280, 300)), [0, 100, 300, 400], [0, 1, 0]),  # the transition is taken
+    ],
+)
+def test_no_border_cuts_an_occurrence(spans, borders, labels) -> None:
+    found = replace_by_occurrences(segments(), occurring(*spans), FREE)
+    assert found.borders.tolist() == borders
+    assert found.labels.tolist() == labels
+
+
+def alone() -> Segments:
+    """Make activities: one repetition of 30 frames, one that repeats, and one with occurrences."""
+    return Segments(
+        np.array([0, 30, 100, 300]),
+        np.array([0, 1, 2]),
+        np.array([0, 30, 65, 100, 180, 220, 300]),
+        np.array([0, 1, 1, -1, 3, -1]),
+        np.array([2]),
+    )
+
+
+@pytest.mark.parametrize(("near", "kept"), [(14, True), (15, False), (1000, False)])
+def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
+    rows = np.arange(300, dtype=np.float32)[:, None]  # 14.5 from the mean of 30 at most
+    given = alone()
+    found = drop_still_clusters(given, rows, near)
+    if kept:
+        assert found is given
+    assert found.clusters.tolist() == [0 if kept else -1, 1, 1, -1, 3, -1]
+    assert found.not_periodic.tolist() == ([2] if kept else [0, 2])
+    assert found.counts.tolist() == [int(kept), 2, 0]

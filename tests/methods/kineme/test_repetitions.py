@@ -1,8 +1,6 @@
-"""Repetition counts: loops of known number, and kernels against naive versions."""
+"""Repetitions: kernels against naive versions, loops of known number, exercises."""
 
 from __future__ import annotations
-
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -10,9 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
+from gestures import stack_features
 from kineme.methods.kineme import _repetition_kernels as kernels
+from kineme.methods.kineme.pipeline import KinemeFound
 from kineme.methods.kineme.preset import KINEME
-from kineme.methods.kineme.repetitions import find_repetitions
+from kineme.methods.kineme.repetitions import find_repetitions, measure_channel_energies
 from loops import make_nods, make_swings
 
 seconds = settings(max_examples=60)
@@ -71,10 +71,10 @@ movements = pytest.mark.parametrize("movement", [make_swings, make_nods])
 
 @movements
 @pytest.mark.parametrize("period", [0.5, 0.8, 1.2, 2.0, 3.0])
-def test_every_repetition_is_counted(movement, period: float) -> None:
+@pytest.mark.parametrize("rest", [0, 0.3, 1.0, 2.0])
+def test_every_repetition_is_counted_also_if_there_are_rests(movement, period, rest) -> None:
     for times in range(2, 13):
-        found = count(movement(times, period=period))
-        assert len(found) + 1 == times
+        assert len(count(movement(times, period=period, rest=rest))) + 1 == times
 
 
 @movements
@@ -88,14 +88,6 @@ def test_a_shock_is_no_repetition(movement, place: float, size: int) -> None:
 
 
 @movements
-@pytest.mark.parametrize("rest", [0.3, 1.0, 2.0])
-def test_a_rest_between_repetitions_changes_no_count(movement, rest: float) -> None:
-    for period in (0.5, 1.2, 3.0):
-        for times in range(2, 13):
-            assert len(count(movement(times, period=period, rest=rest))) + 1 == times
-
-
-@movements
 @pytest.mark.parametrize("rest", [0.5, 1.0, 2.0])
 def test_repetitions_begin_where_somebody_rests_between_them(movement, rest: float) -> None:
     found = count(movement(6, period=1.2, rest=rest))
@@ -103,11 +95,8 @@ def test_repetitions_begin_where_somebody_rests_between_them(movement, rest: flo
     assert ((phases >= 33) | (phases <= 3)).all()
 
 
-speeds = st.lists(st.sampled_from([0.0, 0.01, 0.5, 1.0, 3.0]), min_size=2, max_size=60)
-
-
 @given(st.integers(2, 9), st.integers(0, 2**32 - 1))
-@settings(max_examples=60)
+@seconds
 def test_people_are_not_clocks(times: int, seed: int) -> None:
     """Make repetitions whose pace and size differ by up to a sixth, with noise."""
     rng = np.random.default_rng(seed)
@@ -174,50 +163,8 @@ def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
     assert len(count(rows)) == 0
 
 
-@st.composite
-def gains(draw: st.DrawFn) -> np.ndarray:
-    shape = draw(st.integers(1, 9)), draw(st.integers(1, 9))
-    values = st.integers(-5, 4)
-    return np.array([[draw(values) for _ in range(shape[1])] for _ in range(shape[0])], np.float64)
-
-
-@given(gains())
-@seconds
-def test_matched_lengths_are_those_of_the_naive_version(gained) -> None:
-    best, ends = naive.match_columns(gained.tolist(), 4.0)
-    found = kernels.match_columns(gained, 4.0)
-    assert found in ends if best > 0 else found == (0, 0)
-
-
-@given(st.integers(0, 2**32 - 1))
-@settings(max_examples=60)
-def test_parts_of_a_division_are_those_of_the_naive_versions(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    poses = rng.normal(0, 1, (12, 3))
-    path = np.append(0, np.cumsum(rng.integers(0, 3, 12))).astype(float)
-    lengths = rng.uniform(0, path[-1] + 0.1, 5)
-    expected = naive.look_up_poses(poses, path, lengths)
-    np.testing.assert_array_equal(kernels.look_up_poses(poses, path, lengths), expected)
-    parts = rng.normal(0, 1, (int(rng.integers(2, 5)), 6, 3)) + rng.normal(0, 1, (6, 3))
-    for centering in (0.0, 0.4, 1.0):
-        found = kernels.measure_unexplained(parts, centering)
-        np.testing.assert_allclose(found, naive.measure_unexplained(parts, centering), atol=1e-12)
-    best, ends = naive.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
-    length, counted = kernels.follow_end(poses, path, lengths, parts[0], 4.0, 2.0)
-    known = min(ends, key=lambda end: abs(end[0] - length) + abs(end[1] - counted))
-    np.testing.assert_allclose((length, counted), known if best > 0 else (0, 0), atol=1e-9)
-    visits = np.array([1, 5, 9])
-    for part, (a, b) in zip(
-        kernels.sample_repetitions(poses, path, visits, 4),
-        pairwise(path[visits]),
-        strict=True,
-    ):
-        places = a + (b - a) * (np.arange(4) + 0.5) / 4
-        np.testing.assert_array_equal(part, naive.look_up_poses(poses, path, places))
-
-
 @given(st.integers(0, 2**32 - 1), st.integers(2, 5), st.integers(1, 3))
-@settings(max_examples=60)
+@seconds
 def test_divisions_are_those_of_the_naive_version(seed: int, count: int, smooth: int) -> None:
     rng = np.random.default_rng(seed)
     rows = np.sin(np.arange(40)[:, None] / (2, 3, 5)) + rng.normal(0, 0.3, (40, 3))
@@ -231,3 +178,130 @@ def test_divisions_are_those_of_the_naive_version(seed: int, count: int, smooth:
     np.testing.assert_allclose(
         found, naive.measure_division(poses, path, visits, *options), atol=1e-9
     )
+
+
+FPS = round(KINEME.working_fps)
+
+
+def similar(seed: int, count: int, noise: float) -> np.ndarray:
+    """Draw repetitions of one movement with different sizes, (count, places, dims)."""
+    rng = np.random.default_rng(seed)
+    shape = rng.normal(size=(6, 3)).cumsum(axis=0)
+    sizes = rng.uniform(0.6, 1.4, (count, 1, 1))
+    return sizes * shape + noise * rng.normal(size=(count, 6, 3)) + rng.normal(size=(count, 1, 3))
+
+
+def centered(repetitions: np.ndarray) -> np.ndarray:
+    found = repetitions.copy()
+    kernels.center_repetitions(found)
+    return found
+
+
+shapes = st.integers(0, 2**32 - 1), st.integers(2, 9), st.sampled_from([0.1, 0.5, 2.0])
+
+
+@given(*shapes)
+@seconds
+def test_what_is_explained_is_that_of_the_naive_version(seed, count, noise) -> None:
+    rng = np.random.default_rng(seed)
+    repetitions = similar(seed, count, noise)
+    visits = np.append(0, np.cumsum(rng.integers(4, 12, count)))
+    poses = rng.normal(size=(visits[-1] + 3, 3)).cumsum(axis=0)
+    path = np.append(0, np.cumsum(rng.uniform(0.1, 2, len(poses))))
+    found = kernels.explain_variance(poses, path, visits, centered(repetitions))
+    expected = naive.explain_variance(poses, path, visits.tolist(), list(repetitions))
+    assert found == pytest.approx(expected, abs=1e-9)
+    assert -1e-12 <= found <= 1
+
+
+@given(*shapes)
+@seconds
+def test_the_best_parting_is_that_of_the_naive_version(seed, count, noise) -> None:
+    repetitions = centered(similar(seed, count, noise))
+    found = kernels.find_best_parting(repetitions)
+    assert found == pytest.approx(naive.find_best_parting(list(repetitions)), abs=1e-9)
+    assert 0 <= found <= 1
+    if count < 4:  # two of each are the fewest
+        assert found == 1
+
+
+@given(st.integers(0, 99), st.integers(1, 5))
+@seconds
+def test_similarities_are_those_of_the_naive_version(seed: int, count: int) -> None:
+    movements = np.random.default_rng(seed).normal(size=(count, 6, 3)).cumsum(axis=1)
+    found = kernels.measure_similarities(movements)
+    np.testing.assert_allclose(found, naive.measure_similarities(list(movements)), atol=1e-9)
+    shifted = np.stack([movements[0], np.roll(movements[0], 2, axis=0)])
+    np.testing.assert_allclose(kernels.measure_similarities(shifted), 1, atol=1e-9)  # at any phase
+
+
+@given(st.integers(0, 99), st.integers(1, 30), st.integers(0, 29), st.integers(1, 30))
+@seconds
+def test_the_spread_is_that_of_the_naive_version(seed, n, start, length) -> None:
+    view = np.random.default_rng(seed).normal(size=(n, 3)).astype(np.float32)
+    start = min(start, n - 1)
+    found = kernels.measure_spread(view, start, start + length, 32)
+    assert found == pytest.approx(
+        naive.measure_spread(view, start, start + length), rel=1e-5, abs=1e-6
+    )
+
+
+def squats(count: int, *, seed: int = 0, first: int = 0, period: float = 4.0) -> np.ndarray:
+    """Make slow squats that become slower and less deep, with noise."""
+    rng = np.random.default_rng(seed)
+    drift = np.linspace(0, 1, count)
+    parts = []
+    for share in drift:
+        frames = round(FPS * period * (1 + 0.25 * share) * rng.uniform(0.95, 1.05))
+        depth = (1 - 0.25 * share) * rng.uniform(0.95, 1.05)
+        angle = np.arange(frames) / frames * 2 * np.pi
+        poses = np.zeros((frames, 6))
+        poses[:, first] = 0.4 * depth * (1 - np.cos(angle))
+        poses[:, (first + 1) % 6] = 0.2 * depth * np.sin(angle)
+        parts.append(poses)
+    rows = np.concatenate(parts)
+    return rows + rng.normal(0, 0.005, rows.shape)
+
+
+@given(
+    st.lists(st.integers(1, 300), min_size=1, max_size=12).map(np.cumsum),
+    st.sampled_from([(8.0, 1.7, 4.0, 14.0), (30.0, 0.5, 2.0, 1e9)]),
+)
+def test_what_times_allow_is_that_of_the_naive_version(visits, limits) -> None:
+    found = kernels.score_durations(visits, 30.0, *limits)
+    assert found == pytest.approx(naive.score_durations(visits, 30.0, *limits), abs=1e-12)
+
+
+def parting_of_channels(*sizes: np.ndarray) -> float:
+    """Score repetitions of one shape with these sizes (repetitions, channels)."""
+    angle = np.linspace(0, 2 * np.pi, 16, endpoint=False)
+    repetitions = np.array([np.outer(np.sin(angle), size) for size in sizes])
+    return float(kernels.find_best_parting(measure_channel_energies(repetitions)))
+
+
+def test_other_channels_are_another_movement_and_another_size_is_not() -> None:
+    arms, legs = np.array([1.0, 0.8, 0.1, 0.0]), np.array([0.1, 0.0, 1.0, 0.6])
+    assert parting_of_channels(arms, arms, arms, legs, legs, legs) < KINEME.same_channels - 0.1
+    shrinking = [size * arms for size in np.linspace(1, 0.1, 6)]
+    assert parting_of_channels(*shrinking) > KINEME.same_channels + 0.1
+
+
+def found_in(*parts: np.ndarray) -> KinemeFound:
+    return KINEME.analyze(stack_features(np.concatenate(parts)))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_ten_slow_repetitions_are_one_activity_counted_ten(seed: int) -> None:
+    found = found_in(squats(10, seed=seed))
+    assert found.segments.labels.tolist() == [0]
+    assert found.segments.counts.tolist() == [10]
+
+
+@pytest.mark.parametrize("counts", [(8, 9), (4, 6)])
+@pytest.mark.parametrize("seed", range(4))
+def test_two_exercises_one_after_the_other_are_two_activities(seed: int, counts) -> None:
+    one = squats(counts[0], seed=seed, period=4.5)
+    found = found_in(one, squats(counts[1], seed=seed + 10, first=3))
+    assert found.segments.labels.tolist() == [0, 1]
+    assert abs(found.borders[1] - len(one)) <= FPS
+    assert tuple(found.segments.counts.tolist()) == counts

@@ -1,4 +1,4 @@
-"""Sensors: posture and energy, the tree of segments, and the choice of the level."""
+"""Sensors and series: posture and energy, the tree of segments, and the pace of a series."""
 
 from __future__ import annotations
 
@@ -16,11 +16,13 @@ from kineme.errors import ParameterError
 from kineme.features.channels import compute_channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
-from kineme.methods.kineme.preset import SENSORS
+from kineme.methods.kineme.preset import SENSORS, estimate_period
 from kineme.methods.kineme.tree import MAX_SHIFT, choose_part_ends
 from kineme.methods.kineme.views import compute_views, measure_mutual_information, reduce_shared
+from kineme.recordings import Signals
 
 FPS = 50.0
+seconds = settings(max_examples=60)
 
 
 def worn(seed: int = 0) -> tuple[np.ndarray, list[int]]:
@@ -52,7 +54,7 @@ def samples() -> st.SearchStrategy[np.ndarray]:
 
 
 @given(samples(), st.integers(1, 14), st.floats(0.1, 5))
-@settings(max_examples=60)
+@seconds
 def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
     width = min(width, len(features))
     found = np.empty((len(features), width), np.float32)
@@ -63,7 +65,7 @@ def test_the_band_is_that_of_the_naive_version(features, width, unit) -> None:
 
 
 @given(samples(), st.data())
-@settings(max_examples=60)
+@seconds
 def test_distances_of_segments_are_those_of_the_naive_version(features, data) -> None:
     cuts = data.draw(st.sets(st.integers(1, len(features) - 1)))
     borders = np.array([0, *sorted(cuts), len(features)])
@@ -75,7 +77,7 @@ def test_distances_of_segments_are_those_of_the_naive_version(features, data) ->
 
 
 @given(samples(), st.integers(1, 8), st.floats(0, 2), st.floats(0, 2))
-@settings(max_examples=60)
+@seconds
 def test_the_cheapest_grouping_is_that_of_the_naive_version(features, most, run, cluster) -> None:
     n = len(features)
     lengths = 1.0 + np.arange(n) % 3
@@ -224,3 +226,80 @@ def test_who_goes_up_is_not_who_goes_down_if_channels_are_joints() -> None:
         assert np.linalg.norm(plain[down] - plain[up]) < 0.05 * unit
         assert np.linalg.norm(told[down] - told[up]) > 0.3 * unit
         assert np.linalg.norm(told[down] - told[again]) < 0.05 * unit
+
+
+def one_sided(matrix: np.ndarray, width: int) -> np.ndarray:
+    """Return ``band[i, j - i]`` for j from i on; zero beyond the end."""
+    band = np.zeros((len(matrix), width + 1), np.float32)
+    for i, j in np.ndindex(matrix.shape):
+        if 0 <= j - i <= width:
+            band[i, j - i] = matrix[i, j]
+    return band
+
+
+@st.composite
+def similarities(draw: st.DrawFn, *, max_bins: int = 9) -> np.ndarray:
+    """Draw a symmetric similarity matrix from 0 to 1 with ones on the diagonal."""
+    n = draw(st.integers(1, max_bins))
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    similarity = rng.random((n, n)) ** draw(st.sampled_from([0.1, 1, 10]))
+    similarity = np.round(np.minimum(similarity, similarity.T), 2)
+    np.fill_diagonal(similarity, 1)
+    return similarity
+
+
+@given(similarities(), st.integers(0, 9), st.sampled_from([0.0, 0.3, 1.0, 5.0]))
+@seconds
+def test_no_division_is_cheaper(similarity, width, penalty) -> None:
+    width = min(width, len(similarity) - 1)
+    divisions = naive.list_divisions(len(similarity), width + 1)
+    found = kernels.find_change_points(one_sided(similarity, width), penalty).tolist()
+    assert found in divisions
+    costs = [naive.compute_division_cost(similarity, borders, penalty) for borders in divisions]
+    assert naive.compute_division_cost(similarity, found, penalty) == pytest.approx(
+        min(costs), abs=1e-4
+    )
+
+
+PERIOD, HALF = 40, 2000
+
+
+def two_states(period: float, half: int) -> np.ndarray:
+    """Make a sine, then one with a second harmonic, with some noise."""
+    phase = np.arange(half) * 2 * np.pi / period
+    both = np.concatenate([np.sin(phase), np.sin(phase) + np.sin(2 * phase)])
+    return both + 0.05 * np.random.default_rng(0).standard_normal(2 * half)
+
+
+@pytest.mark.parametrize("pace", [1, 5])
+def test_a_change_is_found_at_any_pace(pace: int) -> None:
+    found = kineme.segment(two_states(pace * PERIOD, pace * HALF), fps=1, preset="series")
+    starts = found.activities.start_frame
+    assert len(starts) == 2
+    assert abs(starts[1] - pace * HALF) <= 2 * pace * PERIOD
+
+
+def test_the_rate_that_is_given_changes_seconds_only() -> None:
+    slow, fast = (kineme.segment(two_states(PERIOD, HALF), fps=f, preset="series") for f in (1, 50))
+    assert slow.table.start_frame.tolist() == fast.table.start_frame.tolist()
+    assert slow.activities.stop_s[-1] == 2 * HALF
+    assert fast.activities.stop_s[-1] == 2 * HALF / 50
+    assert any("count as a second" in note for note in slow.provenance["notes"])
+
+
+def test_gaps_and_rows_to_look_at_stay_where_they_are() -> None:
+    rows = two_states(PERIOD, HALF)[:, None]
+    recording = Signals(rows, 10.0, gaps=[(1000, 1100)])
+    gapped = kineme.segment(recording, preset="series").table
+    assert {1000, 1100} <= {*gapped.start_frame.tolist()}
+    looked = kineme.segment(Signals(rows, 10.0), features=rows[::2], feature_fps=5, preset="series")
+    assert looked.table.stop_frame.max() == 2 * HALF
+    assert len(looked.activities) == 2
+
+
+@pytest.mark.parametrize("n", [1, 2, 9, 50])
+@pytest.mark.parametrize("make", [np.ones, np.arange], ids=["constant", "rising"])
+def test_what_has_no_period_is_segmented_by_its_length(make, n: int) -> None:
+    rows = np.asarray(make(n), float)
+    assert estimate_period(rows[:, None]) is None
+    assert kineme.segment(rows, fps=1, preset="series").table.stop_frame[-1] == n

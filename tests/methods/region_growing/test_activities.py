@@ -1,21 +1,19 @@
-"""Growing regions against naive versions, and simple cases."""
+"""Activities, primitive cuts and clusters against naive rules."""
 
 from __future__ import annotations
-
-from itertools import pairwise
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import naive
-from graphs import as_pairs, block_graphs, sparse_graphs
-from kineme.methods.region_growing import _kernels
+from graphs import PRESET, STEPS, as_lists, as_pairs, block_graphs, sparse_graphs
 from kineme.methods.region_growing.activities import (
-    _find_peaks,
-    find_scan_line_cuts,
-    find_square_cuts,
+    cluster_segments,
+    find_activity_cuts,
+    find_primitive_cuts,
 )
+from kineme.methods.region_growing.warping import warping_paths
 
 seconds = settings(max_examples=60)
 GAPS = st.integers(1, 6)
@@ -24,52 +22,93 @@ COUNTS = st.integers(0, 30)
 
 @given(block_graphs(), GAPS, COUNTS, st.integers(0, 12))
 @seconds
-def test_squares_are_those_of_the_naive_version(graph, min_gap, min_count, min_distance) -> None:
-    options = {"min_gap": min_gap, "min_count": min_count, "min_distance": min_distance}
-    cuts = find_square_cuts(graph, **options)
-    expected = naive.find_square_cuts(as_pairs(graph), len(graph), **options)
-    assert (cuts.forward.tolist(), sorted(set(cuts.backward.tolist()))) == (
-        expected[0],
-        sorted(set(expected[1])),
+def test_squares_are_those_of_the_naive_version(graph, gap, count, distance) -> None:
+    preset = PRESET.replace(
+        growth="squares", growth_gap=gap, growth_count=count, growth_distance=distance
     )
+    cuts = find_activity_cuts(graph, preset)
+    forward, backward = naive.find_square_cuts(
+        as_pairs(graph), len(graph), min_gap=gap, min_count=count, min_distance=distance
+    )
+    assert cuts.forward.tolist() == forward
+    assert sorted(set(cuts.backward.tolist())) == sorted(set(backward))
 
 
 @given(block_graphs() | sparse_graphs(max_frames=30), GAPS, COUNTS)
 @seconds
-def test_scan_lines_are_those_of_the_naive_version(graph, min_gap, min_count) -> None:
-    cuts = find_scan_line_cuts(graph, min_gap=min_gap, min_count=min_count)
-    expected = naive.find_scan_line_cuts(
-        as_pairs(graph), len(graph), min_gap=min_gap, min_count=min_count
-    )
+def test_scan_lines_are_those_of_the_naive_version(graph, gap, count) -> None:
+    cuts = find_activity_cuts(graph, PRESET.replace(growth_gap=gap, growth_count=count))
+    expected = naive.find_scan_line_cuts(as_pairs(graph), len(graph), min_gap=gap, min_count=count)
     assert (cuts.forward.tolist(), cuts.backward.tolist()) == expected
 
 
-@given(st.lists(st.integers(0, 6), min_size=1, max_size=40), st.integers(0, 5), st.integers(0, 9))
+@given(
+    sparse_graphs(),
+    STEPS,
+    st.data(),
+    st.sampled_from([0.1, 0.5, 1.0]),
+    st.sampled_from([1.0, 2.0]),
+    st.sampled_from([1, 2.5, 4]),
+)
 @seconds
-def test_peaks_are_those_of_the_naive_version(heights, min_height, min_distance) -> None:
-    found = _find_peaks(np.array(heights, np.int64), min_height, min_distance)
-    assert found.tolist() == naive.find_peaks(dict(enumerate(heights)), min_height, min_distance)
-
-
-@given(sparse_graphs(), st.booleans())
-@seconds
-def test_grouped_pairs_hold_every_pair_once(graph, by_later) -> None:
-    indptr, others = _kernels.group_pairs(graph.indptr, graph.indices, by_later)
-    groups = [sorted(others[a:b].tolist()) for a, b in pairwise(indptr)]
-    key, other = (max, min) if by_later else (min, max)
-    pairs = as_pairs(graph)
-    assert groups == [
-        sorted(other(pair) for pair in pairs if key(pair) == i) for i in range(len(graph))
-    ]
-
-
-@given(sparse_graphs(), st.data())
-@seconds
-def test_inner_neighbors_are_those_of_the_naive_version(graph, data) -> None:
-    n = len(graph)
-    inner = data.draw(st.sets(st.integers(1, n - 1))) if n > 1 else set()
-    borders = [0, *sorted(inner), n]
-    counts = _kernels.count_inner_neighbors(
-        graph.indptr, graph.indices, np.array(borders, np.int64)
+def test_cuts_are_those_of_the_naive_rules(
+    graph, steps, data, symmetry, max_slope, min_length
+) -> None:
+    first = data.draw(st.integers(0, len(graph) - 1))
+    last = data.draw(st.integers(first, len(graph) - 1))
+    preset = PRESET.replace(
+        steps=steps, symmetry=symmetry, max_slope=max_slope, min_primitive=min_length
     )
-    assert counts.tolist() == naive.count_inner_neighbors(as_pairs(graph), borders)
+    found = find_primitive_cuts(graph, (first, last), preset)
+    box = (first, last + 1)
+    paths = as_lists(warping_paths(graph, box, box, steps=steps))
+    symmetric = naive.mark_coherent_paths(paths, symmetry)
+    valid = [
+        path
+        for path, holds in zip(paths, symmetric, strict=True)
+        if holds and 1 / max_slope <= slope(path) <= max_slope
+    ]
+    assert as_lists(found.paths) == valid
+    assert found.cuts.tolist() == naive.choose_cuts(valid, (first, last), min_length=min_length)
+    assert [valid[source][0][1] for source in found.sources] == found.cuts.tolist()
+
+
+def slope(path: list[tuple[int, int]]) -> float:
+    return (path[-1][1] - path[0][1]) / (path[-1][0] - path[0][0])
+
+
+@given(
+    sparse_graphs(),
+    STEPS,
+    st.data(),
+    st.sampled_from([0.1, 0.5, 0.66, 1.0]),
+    st.booleans(),
+    st.sampled_from(["weak", "strong"]),
+)
+@seconds
+def test_clusters_are_those_of_the_naive_rules(
+    graph, steps, data, coverage, interpolate, connection
+) -> None:
+    n = len(graph)
+    inner = data.draw(st.sets(st.integers(1, n - 2), max_size=4)) if n > 2 else set()
+    borders = [0, *sorted(inner), n - 1]
+    preset = PRESET.replace(
+        steps=steps, coverage=coverage, interpolate=interpolate, connection=connection
+    )
+    found = cluster_segments(graph, np.array(borders, np.int64), preset)
+    links = []
+    for g in range(len(borders) - 1):
+        rows = (borders[g], borders[g + 1] + 1)
+        paths = as_lists(warping_paths(graph, rows, (0, n), steps=steps, max_slope=2.0))
+        linked = naive.find_linked_segments(
+            paths, borders, g, coverage=coverage, interpolate=interpolate
+        )
+        links.append(dict(sorted(linked, key=lambda link: link[1])))
+    labels = naive.cluster_segments(links, connection)
+    assert found.labels.tolist() == labels
+    scores = [0.0] * len(labels)
+    for g, targets in enumerate(links):
+        for h, share in targets.items():
+            if h != g and labels[g] == labels[h]:
+                scores[g], scores[h] = max(scores[g], share), max(scores[h], share)
+    np.testing.assert_allclose(found.scores, scores)

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 import naive
 from graphs import as_lists, as_pairs, sparse_graphs
 from kineme.errors import ParameterError
+from kineme.methods.region_growing import BASIC_STEPS
 from kineme.methods.region_growing.neighbors import neighbor_graph
-from kineme.methods.region_growing.warping import BASIC_STEPS, label_components, warping_paths
+from kineme.methods.region_growing.warping import label_components, warping_paths
 
 seconds = settings(max_examples=60)
 STEPS = st.sampled_from(

@@ -56,7 +56,7 @@ from kineme.methods.kineme.repetitions import (
     score_one_movement,
     trace_movement,
 )
-from kineme.methods.segments import number_by_appearance
+from kineme.methods.segments import find_segments, number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -82,17 +82,7 @@ TINY = 1e-12
 def refine_borders(channels: Floats, borders: Frames, preset: KinemeConstants) -> Spans:
     """Return the first frame and the end of each segment; frames between two are a transition.
 
-    Parameters
-    ----------
-    channels : (frames, channels) array
-        At the working rate.
-    borders : (segments + 1,) array
-        Frames, from 0 to the end.
-    preset : KinemeConstants
-
-    Returns
-    -------
-    starts, stops : (segments,) array
+    Channels (frames, channels) are at the working rate; borders are frames from 0 to the end.
     """
     averaged = max(1, preset.frames(preset.averaging))
     max_side = max(1, preset.frames(MAX_SIDE))
@@ -164,12 +154,7 @@ def convert_to_samples(frames: Frames, preset: KinemeConstants, n: int) -> Frame
 def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
     """Return the finest borders, with those of a level moved to their new places.
 
-    Parameters
-    ----------
-    fine : (segments + 1,) array
-        Samples, including `before`.
-    before, after : (segments + 1,) array
-        Old and new borders of the level.
+    ``fine`` includes ``before``, the old borders of the level; ``after`` are the new ones.
 
     Examples
     --------
@@ -179,21 +164,13 @@ def move_fine_borders(fine: Frames, before: Frames, after: Frames) -> Frames:
     """
     # Remove fine borders between the old and the new place of a border.
     low, high = np.minimum(before, after), np.maximum(before, after)
-    last = np.searchsorted(low, fine, side="right") - 1
+    last = find_segments(low, fine)
     passed = fine <= high[last]
     return np.unique(np.concatenate([fine[~passed], after]))
 
 
 class Ends(NamedTuple):
-    """Starts and ends of activities and of their repetitions.
-
-    Attributes
-    ----------
-    starts, stops : (activities,) array
-        Frames of the activities.
-    firsts, lasts : (activities,) array
-        Start of the first repetition, and end of the last one.
-    """
+    """Starts and ends of activities, starts of the first repetitions and ends of the last ones."""
 
     starts: Frames
     stops: Frames
@@ -211,17 +188,9 @@ def fit_ends(
 ) -> Ends:
     """Fit the first and last repetition of each activity; activities do not overlap.
 
-    Parameters
-    ----------
-    features : (frames, dims) array
-        At the working rate.
-    starts, stops : (activities,) array
-        Frames of the activities, in time order.
-    labels : (activities,) array
-        Their clusters. A gap between two activities of one cluster is never closed.
-    cuts : sequence of arrays of int
-        Starts of the second, third, ... repetition of each.
-    preset : KinemeConstants
+    Activities are in time order, in frames of features (frames, dims) at the working rate. A gap
+    between two activities of one cluster is never closed. ``cuts`` are the starts of the second,
+    third, ... repetition of each.
     """
     n = len(features)
     # The last repetition is the first one of the reversed recording.
@@ -254,11 +223,7 @@ def fit_ends(
 def fit_edges(rows: Rows, cuts: Frames) -> Frames:
     """Return the starts of the repetitions of a span, and the end of the last one.
 
-    Parameters
-    ----------
-    rows : (frames, dims) array
-    cuts : (cuts,) array of int
-        Starts of the second, third, ... repetition.
+    ``cuts`` are the starts of the second, third, ... repetition.
     """
     n, reversed_rows = len(rows), np.ascontiguousarray(rows[::-1])
     _, first = _find_begin(rows, 0, cuts)
@@ -297,15 +262,8 @@ class Sets(NamedTuple):
 def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
     """Merge neighbouring activities that are one set, the most similar ones first.
 
-    A merged activity has the cluster of its longer part.
-
-    Parameters
-    ----------
-    rows : (frames, dims) array
-        At the working rate.
-    found : Sets
-        Frames between two of them are a transition.
-    preset : KinemeConstants
+    A merged activity has the cluster of its longer part. Rows (frames, dims) are at the working
+    rate; frames between two activities are a transition.
     """
     starts, stops, labels = (values.tolist() for values in found[:3])
     cuts = list(found.cuts)
@@ -354,19 +312,10 @@ def compare_sides(
 ) -> float:
     """Return the similarity of repetitions across a border, relative to that on each side.
 
-    Return 0 if the joint division fails one of the other tests; see the module docstring.
-
-    Parameters
-    ----------
-    rows : (frames, dims) array
-        Frames of both sides.
-    cuts : array of int
-        Starts of the second, third, ... repetition of the joint division.
-    border : int
-        First frame of the right side.
-    counts : tuple of int
-        Number of repetitions of each side when divided alone.
-    preset : KinemeConstants
+    Return 0 if the joint division fails one of the other tests; see the module docstring. ``rows``
+    are the frames of both sides, ``cuts`` the starts of the second, third, ... repetition of the
+    joint division, ``border`` the first frame of the right side. ``counts`` are the numbers of
+    repetitions of each side when divided alone.
     """
     if len(cuts) < 2:  # there is no inner repetition
         return 0.0
@@ -398,14 +347,8 @@ def compare_sides(
 def compare_at_border(repeated: Floats, border: int, centering: float) -> tuple[float, float]:
     """Return the mean correlation of repetitions on the same side of a border, and across it.
 
-    Parameters
-    ----------
-    repeated : (repetitions, places, dims) array
-        At least three.
-    border : int
-        Index of the first repetition of the right side.
-    centering : float
-        Share of its mean pose that is subtracted from each repetition.
+    ``repeated`` (repetitions, places, dims) are at least three, ``border`` is the first one of the
+    right side. A share ``centering`` of its mean pose is subtracted from each.
 
     Examples
     --------

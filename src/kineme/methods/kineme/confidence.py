@@ -31,6 +31,7 @@ from kineme.methods.kineme.borders import convert_to_samples
 from kineme.methods.kineme.primitives import Segments
 from kineme.methods.kineme.repetitions import PLACES, trace_movement
 from kineme.methods.kineme.tree import sum_between_segments
+from kineme.methods.segments import find_segments
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -63,40 +64,25 @@ MIN_SHARPNESS = 0.05
 
 
 class Answers(NamedTuple):
-    """Clusters that each view of a part of the recording finds.
-
-    Attributes
-    ----------
-    frames : (samples,) array
-        Frames of the samples, at the working rate.
-    clusters : list of (samples,) array
-        Cluster of each sample, for each view.
-    """
+    """Clusters that each view of a part of the recording finds."""
 
     frames: Frames
+    """Frames of the samples, at the working rate."""
     clusters: list[Frames]
+    """Cluster of each sample, for each view."""
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Statistics from which confidence is computed, each when it is first needed.
-
-    Attributes
-    ----------
-    rows : (frames, dims) array
-        Features at the working rate.
-    view : (samples, dims) array
-        The chosen view, at ``preset.rate``.
-    segments : Segments
-    answers : sequence of Answers
-        For each part of the recording.
-    preset : KinemeConstants
-    """
+    """Statistics from which confidence is computed, each when it is first needed."""
 
     rows: NDArray[np.float32]
+    """Features (frames, dims) at the working rate."""
     view: NDArray[np.float32]
+    """The chosen view (samples, dims), at ``preset.rate``."""
     segments: Segments
     answers: Sequence[Answers]
+    """One for each part of the recording."""
     preset: KinemeConstants
 
     @cached_property
@@ -167,31 +153,20 @@ class Evidence:
 
 @dataclass(frozen=True, eq=False)
 class Confidence:
-    """Probabilities that results are right; nan where there is none.
-
-    Attributes
-    ----------
-    clusters, borders : (segments,) array
-        Probability of the cluster of each segment, and of its start.
-    cuts : (primitives,) array
-        Probability of the start of each primitive; for the first one that of the segment.
-    """
+    """Probabilities that results are right; nan where there is none."""
 
     clusters: Floats
+    """Probability of the cluster of each segment."""
     borders: Floats
+    """Probability of the start of each segment."""
     cuts: Floats
+    """Probability of the start of each primitive; for the first one that of the segment."""
 
 
 def measure_preferences(view: NDArray[np.float32], borders: Frames, labels: Frames) -> Floats:
     """Return how much nearer each segment is to its own cluster than to the next, 0 to 1.
 
-    Parameters
-    ----------
-    view : (samples, dims) array
-    borders : (segments + 1,) array
-        Samples.
-    labels : (segments,) array
-        Clusters; transitions have -1, and get nan.
+    Borders are in samples of the view. Transitions have the label -1, and get nan.
 
     Examples
     --------
@@ -220,15 +195,7 @@ def measure_agreement(borders: Frames, labels: Frames, part: Answers) -> Floats:
 
     A view has a cluster with which it covers most of the segment. Its agreement is twice the number
     of samples that this cluster shares with the segment's cluster, over the sum of both sizes
-    (F1 score).
-
-    Parameters
-    ----------
-    borders : (segments + 1,) array
-        Frames.
-    labels : (segments,) array
-        Clusters; transitions have -1, and get nan.
-    part : Answers
+    (F1 score). Borders are frames. Transitions have the label -1, and get nan.
 
     Examples
     --------
@@ -237,7 +204,7 @@ def measure_agreement(borders: Frames, labels: Frames, part: Answers) -> Floats:
     >>> measure_agreement(np.array([0, 2, 4]), np.array([0, 1]), part).round(2).tolist()
     [0.83, 0.83]
     """
-    segment = np.searchsorted(borders, part.frames, side="right") - 1
+    segment = find_segments(borders, part.frames)
     inside = (segment >= 0) & (segment < len(labels))
     members = np.eye(labels.max(initial=-1) + 2)[labels, :-1]  # -1 has no column
     own = np.flatnonzero(labels >= 0)
@@ -260,13 +227,6 @@ def compute_sharpness(view: NDArray[np.float32], at: Frames, side: int) -> Float
     The change at a sample is the energy distance between the `side` samples before it and those
     after it. Sharpness is this change divided by the mean change of the samples nearby. It is 1
     if the view changes everywhere or nowhere.
-
-    Parameters
-    ----------
-    view : (samples, dims) array
-    at : (borders,) array
-        Samples inside the view.
-    side : int
 
     Examples
     --------

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats, Ints
 from kineme._util.parallel import check_cancelled
 from kineme.methods.kineme import _event_kernels as kernels
-from kineme.methods.segments import number_by_appearance
+from kineme.methods.segments import find_segments, number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -41,22 +41,14 @@ N_LENGTHS = 24
 
 @dataclass(frozen=True, eq=False)
 class Occurrences:
-    """Spans that recur, in time order and without overlap.
-
-    Attributes
-    ----------
-    starts, stops : (occurrences,) array of int
-        Frames at the working rate.
-    clusters : (occurrences,) array of int
-        Set of each, numbered from 0 by first appearance.
-    similarity : (occurrences,) array
-        Similarity of each to the representative of its set, 0 to 1.
-    """
+    """Spans that recur, in frames at the working rate, in time order and without overlap."""
 
     starts: Ints
     stops: Ints
     clusters: Ints
+    """Set of each, numbered from 0 by first appearance."""
     similarity: Floats
+    """Similarity of each to the representative of its set, 0 to 1."""
 
     def __len__(self) -> int:
         return len(self.starts)
@@ -81,8 +73,7 @@ class Occurrences:
     def _find_segments(self, borders: Ints) -> Ints:
         """Return the segment that contains the middle of each occurrence."""
         middles = (self.starts + self.stops) // 2
-        segments: Ints = np.searchsorted(borders, middles, side="right") - 1
-        return segments
+        return find_segments(borders, middles)
 
 
 def find_occurrences(
@@ -90,13 +81,7 @@ def find_occurrences(
 ) -> Occurrences:
     """Find the spans that recur among the free frames.
 
-    Parameters
-    ----------
-    poses : (frames, dims) array
-        At the working rate, in body sizes, not stacked.
-    free : (frames,) array of bool
-        Frames in which occurrences may lie.
-    preset : KinemeConstants
+    Poses (frames, dims) are at the working rate, in body sizes, and not stacked.
     """
     per_second = preset.working_fps / _count_step_frames(preset)
     samples = _sample_frames(np.asarray(poses, np.float64), free, preset)
@@ -136,24 +121,16 @@ def find_occurrences(
 
 
 class _Samples(NamedTuple):
-    """Samples at equal steps of movement time.
-
-    Attributes
-    ----------
-    columns : (dims, samples) array
-        Poses and velocities.
-    edges : (samples, 2) array
-        First frame of each sample, and one past its last.
-    seconds : (samples,) array
-        Duration of each in steps: 1 at the usual speed of the body.
-    begins : (samples,) array of bool
-        Whether a free span begins with this sample.
-    """
+    """Samples at equal steps of movement time."""
 
     columns: Floats
+    """Poses and velocities, (dims, samples)."""
     edges: Ints
+    """First frame of each sample, and one past its last, (samples, 2)."""
     seconds: Floats
+    """Duration of each in steps: 1 at the usual speed of the body."""
     begins: NDArray[np.bool_]
+    """Whether a free span begins with this sample."""
 
 
 def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstants) -> _Samples:
@@ -258,14 +235,9 @@ def split_path(
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Compute a path leg by leg; return its partners and scores from both sides.
 
-    Parameters
-    ----------
-    columns, costs, scale
-        See `find_matching_paths`.
-    ends : (5,) array
-        First and last pair, and the index in `passed` of the last waypoint (-1 if none).
-    passed : (pairs, 3) array
-        Waypoints, each with the index of the one before; see `_event_kernels.find_local_paths`.
+    ``ends`` holds the first and last pair, and the index in ``passed`` of the last waypoint (-1 if
+    none). ``passed`` (pairs, 3) are waypoints, each with the index of the one before; see
+    `_event_kernels.find_local_paths`.
     """
     # Follow the linked list of waypoints from the last pair to the first.
     pairs, latest = [ends[2:4]], int(ends[4])

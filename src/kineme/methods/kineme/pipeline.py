@@ -28,7 +28,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from threadpoolctl import ThreadpoolController
 
-from kineme._util.arrays import Floats
 from kineme._util.checks import as_features
 from kineme._util.parallel import map_threads
 from kineme.features.channels import choose_frames
@@ -49,7 +48,6 @@ from kineme.methods.kineme.primitives import (
     find_events,
     merge_similar_clusters,
 )
-from kineme.methods.kineme.repetitions import Repeating
 from kineme.methods.kineme.tree import (
     Level,
     choose_part_ends,
@@ -63,6 +61,7 @@ from kineme.methods.segments import (
     DETAILS,
     FineSegments,
     assign_clusters,
+    find_segments,
     list_doubts,
     make_columns,
     make_tables,
@@ -157,7 +156,7 @@ class KinemeFound:
         # Default borders are known to the frame.
         frames[np.searchsorted(borders, coarse)] = self.segments.borders
         # Cluster at detail 1 of the default segment that contains each fine one.
-        parents = self.segments.labels[np.searchsorted(coarse, borders[:-1], side="right") - 1]
+        parents = self.segments.labels[find_segments(coarse, borders[:-1])]
         sums = tree.sum_between_segments(self.features, borders, self.unit) / 2
         clusters = assign_clusters(
             FineSegments(borders, parents, sums),
@@ -181,7 +180,7 @@ class KinemeFound:
             more = f" and {len(spans) - MAX_LISTED} more" if len(spans) > MAX_LISTED else ""
             primitives = columns["start_frame"][~is_activity & (columns["cluster"] >= 0)]
             # The last of these activities that begins at or before each primitive; -1 for none.
-            before = np.searchsorted(starts, primitives, side="right") - 1
+            before = find_segments(starts, primitives)
             recurs = ((before >= 0) & (primitives < stops[before])).any()
             note = (
                 "their primitives are movements that repeat elsewhere"
@@ -193,22 +192,15 @@ class KinemeFound:
 
 
 class Part(NamedTuple):
-    """Result for a part of a recording.
-
-    Attributes
-    ----------
-    scale : int
-        Number of the chosen view.
-    view : (samples, dims) array
-    level : Level
-    answers : Answers
-        Clusters that all views find.
-    """
+    """Result for a part of a recording."""
 
     scale: int
+    """Number of the chosen view."""
     view: Rows
+    """The chosen view, (samples, dims)."""
     level: Level
     answers: Answers
+    """Clusters that all views find."""
 
 
 def analyze(
@@ -218,30 +210,58 @@ def analyze(
     joints: bool = False,
     progress: Progress | None = None,
 ) -> KinemeFound:
-    """Find the segments, clusters, repetitions and events of features.
+    """Find the segments, clusters, repetitions and events of features (frames, dims).
 
-    Parameters
-    ----------
-    features : (frames, dims) array
-        At the working rate; for a body in body sizes.
-    preset : KinemeConstants
-    joints : bool
-        Whether features are computed from positions of joints.
-    progress : callable, optional
-        Called with the name of each stage before it runs.
-
-    Returns
-    -------
-    KinemeFound
-
-    Raises
-    ------
-    ParameterError
-        The features have another shape, are empty, or not finite.
+    Features are at the working rate; for a body in body sizes. ``joints`` tells whether they are
+    computed from positions of joints. ``progress`` is called with the name of each stage before it
+    runs. Raise ParameterError if the features have another shape, are empty, or not finite.
     """
     # Parts run in parallel, and sums must not depend on the number of threads.
     with _get_thread_limiter().limit(limits=1):
-        return _analyze(as_features(features), preset, progress, joints=joints)
+        rows = as_features(features)
+        timings: dict[str, float] = {}
+        stage = time_stages(timings, progress)
+        n = len(rows)
+        # Centred before the conversion to float32, so that an offset costs no precision.
+        poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)
+        min_frames = 2 * ceil(preset.working_fps / preset.rate)  # so that each part has a sample
+        side = preset.frames(2 * preset.averaging)
+        ends = choose_part_ends(poses, max(min_frames, preset.frames(preset.part)), side)
+        spans = [slice(*span) for span in pairwise(ends)]
+        with stage("views"):
+            views = [compute_views(rows[span], preset, joints=joints) for span in spans]
+        with stage("segments"):
+            parts = map_threads(
+                lambda each: _segment_part(each[0], poses[each[1]], each[1], preset),
+                zip(views, spans, strict=True),
+            )
+            view = parts[0].view
+            if len(parts) > 1:
+                # All parts are compared in the view that most of them chose.
+                scale = int(np.bincount([part.scale for part in parts]).argmax())
+                view = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
+            unit = compute_median_distance(view, preset.comparison_width)
+            sample_frames = choose_frames(n, preset.working_fps, preset.rate)
+            # Price of a cluster in one part, as parts were segmented on their own.
+            price = preset.cluster_price(len(parts[0].view))
+            level = link_parts(
+                view, sample_frames, [part.level for part in parts], unit=unit, price=price
+            )
+        with stage("borders"):
+            starts, stops = refine_borders(rows, level.borders, preset)
+            fine = move_fine_borders(level.fine, level.borders, np.append(starts, n))
+        with stage("repetitions"):
+            segments = divide_into_repetitions(poses, starts, stops, level.labels, preset)
+            if preset.min_similarity < 1:
+                segments = merge_similar_clusters(poses, segments, preset)
+        if preset.event_scale:
+            with stage("events"):
+                segments = find_events(poses, segments, preset)
+        with stage("confidence"):
+            evidence = Evidence(poses, view, segments, [part.answers for part in parts], preset)
+            calibration = OF_BODIES if preset.unit == "body sizes" else OF_SIGNALS
+            confidence = compute_confidence(evidence, calibration)
+        return KinemeFound(view, preset, unit, segments, evidence, confidence, fine, timings)
 
 
 @cache
@@ -250,60 +270,15 @@ def _get_thread_limiter() -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def _analyze(
-    rows: Floats, preset: KinemeConstants, progress: Progress | None, *, joints: bool
-) -> KinemeFound:
-    timings: dict[str, float] = {}
-    stage = time_stages(timings, progress)
-    n = len(rows)
-    # Centred before the conversion to float32, so that an offset costs no precision.
-    poses = np.ascontiguousarray(rows - rows.mean(axis=0), np.float32)
-    min_frames = 2 * ceil(preset.working_fps / preset.rate)  # so that each part has a sample
-    side = preset.frames(2 * preset.averaging)
-    ends = choose_part_ends(poses, max(min_frames, preset.frames(preset.part)), side)
-    spans = [slice(*span) for span in pairwise(ends)]
-    with stage("views"):
-        views = [compute_views(rows[span], preset, joints=joints) for span in spans]
-    with stage("segments"):
-        parts = map_threads(
-            lambda i: _segment_part(views[i], poses[spans[i]], spans[i], preset), range(len(spans))
-        )
-        view = parts[0].view
-        if len(parts) > 1:
-            # All parts are compared in the view that most of them chose.
-            scale = int(np.bincount([part.scale for part in parts]).argmax())
-            view = compute_views(rows, preset.select_view(scale), joints=joints).views[0]
-        unit = compute_median_distance(view, preset.comparison_width)
-        sample_frames = choose_frames(n, preset.working_fps, preset.rate)
-        # Price of a cluster in one part, as parts were segmented on their own.
-        price = preset.cluster_price(len(parts[0].view))
-        level = link_parts(
-            view, sample_frames, [part.level for part in parts], unit=unit, price=price
-        )
-    with stage("borders"):
-        starts, stops = refine_borders(rows, level.borders, preset)
-        fine = move_fine_borders(level.fine, level.borders, np.append(starts, n))
-    with stage("repetitions"):
-        segments = divide_into_repetitions(poses, starts, stops, level.labels, preset)
-        if preset.min_similarity < 1:
-            segments = merge_similar_clusters(poses, segments, preset)
-    if preset.event_scale:
-        with stage("events"):
-            segments = find_events(poses, segments, preset)
-    with stage("confidence"):
-        evidence = Evidence(poses, view, segments, [part.answers for part in parts], preset)
-        calibration = OF_BODIES if preset.unit == "body sizes" else OF_SIGNALS
-        confidence = compute_confidence(evidence, calibration)
-    return KinemeFound(view, preset, unit, segments, evidence, confidence, fine, timings)
-
-
 def _segment_part(views: Views, poses: Rows, span: slice, preset: KinemeConstants) -> Part:
     """Segment a part on its own. Its view is chosen without regard to repetitions."""
     fine_levels = [find_fine_level(view, preset) for view in (*views.views, *views.halves)]
-    clusters = [find_level(fine, preset).expand_to_samples() for fine in fine_levels]
+    levels = [find_level(fine, preset) for fine in fine_levels]
+    # Cluster of each sample, for each view.
+    clusters = [np.repeat(level.labels, np.diff(level.borders)) for level in levels]
     count = len(views.views)
     scale = choose_view(clusters[:count], clusters[count:], margin=preset.view_margin)
-    level = find_level(fine_levels[scale], preset, Repeating(poses, preset)).to_frames(span, preset)
+    level = find_level(fine_levels[scale], preset, poses).to_frames(span, preset)
     view = views.views[scale]
     frames = span.start + choose_frames(span.stop - span.start, preset.working_fps, preset.rate)
     return Part(scale, view, level, Answers(frames, clusters))

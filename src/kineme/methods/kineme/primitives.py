@@ -4,7 +4,7 @@ Each segment is divided into repetitions. Clusters whose mean repetitions are si
 and pace are merged. Clusters that do not repeat get occurrences as primitives: spans that recur
 anywhere. Occurrences are never cut: a border of activities inside one moves to its nearer end.
 
-Spans are in frames at the working rate.
+Spans are in frames at the working rate; ``rows`` (frames, dims) are at this rate, too.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from kineme.methods.kineme.repetitions import (
     find_repetitions,
     trace_movement,
 )
-from kineme.methods.segments import number_by_appearance
+from kineme.methods.segments import find_segments, number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -45,33 +45,24 @@ MAX_COMPARED = 8
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """Segments of both levels, each from frame 0 to the end of the recording.
-
-    Attributes
-    ----------
-    borders : (activities + 1,) array
-        Borders of activities and transitions.
-    labels : (activities,) array
-        Cluster of each activity; -1 for transitions.
-    primitives : (primitives + 1,) array
-        Borders of the primitives, including those of activities.
-    clusters : (primitives,) array
-        Cluster of each primitive; -1 for transitions. The numbers of `labels` come first, then
-        those of repetitions of other movements, then those of occurrences.
-    not_periodic : array of int
-        Clusters of activities whose primitives are occurrences.
-    """
+    """Segments of both levels, each from frame 0 to the end of the recording."""
 
     borders: Frames
+    """Borders of activities and transitions, (activities + 1,)."""
     labels: Frames
+    """Cluster of each activity; -1 for transitions."""
     primitives: Frames
+    """Borders of the primitives, including those of activities."""
     clusters: Frames
+    """Cluster of each primitive; -1 for transitions. The numbers of `labels` come first, then those
+    of repetitions of other movements, then those of occurrences."""
     not_periodic: Frames
+    """Clusters of activities whose primitives are occurrences."""
 
     @cached_property
     def parents(self) -> Frames:
         """Return the activity or transition that contains each primitive."""
-        return _find_segments(self.borders, self.primitives[:-1])
+        return find_segments(self.borders, self.primitives[:-1])
 
     @cached_property
     def firsts(self) -> Frames:
@@ -100,15 +91,7 @@ def divide_into_repetitions(
 ) -> Segments:
     """Divide segments into repetitions, and merge neighbours that are one set.
 
-    Parameters
-    ----------
-    rows : (frames, dims) array
-        At the working rate.
-    starts, stops : (segments,) array
-        Frames between two segments are a transition.
-    labels : (segments,) array
-        Cluster of each.
-    preset : KinemeConstants
+    Frames between two segments are a transition.
     """
     spans = list(zip(starts.tolist(), stops.tolist(), strict=True))
     cuts = map_threads(lambda span: find_repetitions(rows, *span, preset), spans)
@@ -125,16 +108,7 @@ def divide_into_repetitions(
 
 
 def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
-    """Merge clusters that are one movement at any pace, and neighbours of one cluster.
-
-    Parameters
-    ----------
-    rows : (frames, dims) array
-        At the working rate.
-    segments : Segments
-        With repetitions.
-    preset : KinemeConstants
-    """
+    """Merge clusters that are one movement at any pace, and neighbours of one cluster."""
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
         movement, _, repeated = _extract_repetitions(rows, segments, segment, preset)
@@ -162,14 +136,9 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
     It is 1 for equal movements, 0 for movements with nothing in common but their mean pose, and
     negative if mean poses differ. Small movements must be nearer to each other than large ones.
 
-    Parameters
-    ----------
-    labels : (segments,) array
-        Cluster of each segment.
-    movements : dict of int to (places, dims) array
-        Mean repetition by segment, sampled evenly along its path.
-    least : float
-        Smallest similarity, averaged over pairs of segments, at which two clusters are merged.
+    ``movements`` holds the mean repetition of each segment (places, dims), sampled evenly along its
+    path. ``least`` is the smallest similarity, averaged over pairs of segments, at which two
+    clusters are merged.
     """
     labels = labels.copy()
     repeating = np.array(sorted(movements), np.int64)
@@ -199,14 +168,8 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
     """Replace the repetitions of clusters that do not repeat by occurrences.
 
     A cluster keeps its repetitions if they explain enough of each other, or if occurrences explain
-    less. It loses its primitives if each segment has one repetition and nothing moves in any.
-
-    Parameters
-    ----------
-    rows : (frames, dims) array
-        At the working rate, in body sizes.
-    segments : Segments
-    preset : KinemeConstants
+    less. It loses its primitives if each segment has one repetition and nothing moves in any. Rows
+    are in body sizes.
     """
     shares = measure_explained(rows, segments, preset)
     shares = average_by_cluster(shares, np.ones_like(segments.labels), segments.labels)
@@ -270,21 +233,16 @@ def average_by_cluster(shares: Floats, weights: NDArray[np.integer], labels: Fra
 
 
 def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) -> Segments:
-    """Replace the primitives of free segments by occurrences.
+    """Replace the primitives of free segments by the occurrences found in them.
 
-    Parameters
-    ----------
-    segments : Segments
-    found : Occurrences
-        Occurrences in the free segments; their clusters are numbered after all others.
-    free : (activities,) array of bool
-        Transitions, and activities of clusters that are not periodic.
+    Transitions are free, and so are activities of clusters that are not periodic. Clusters of
+    occurrences are numbered after all others.
     """
     # A border inside an occurrence moves to its nearer end, which may empty a segment.
     borders, old = _drop_empty(_move_borders_out(found, segments.borders), segments.labels)
     free = free[old]
     cuts = segments.primitives[:-1]
-    cuts = cuts[~free[_find_segments(borders, cuts)]]
+    cuts = cuts[~free[find_segments(borders, cuts)]]
     primitives = np.unique(np.concatenate([borders, cuts, found.starts, found.stops]))
     begin = primitives[:-1]
     # Renumber clusters of activities, as some may have vanished. `numbers` maps old to new
@@ -294,13 +252,13 @@ def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) 
     numbers[segments.labels[old] + 1] = labels
     actions = int(labels.max(initial=-1)) + 1
     # Repetitions keep the number of their activity, or get one after these.
-    clusters = segments.clusters[_find_segments(segments.primitives, begin)]
-    clusters[free[_find_segments(borders, begin)]] = -1
+    clusters = segments.clusters[find_segments(segments.primitives, begin)]
+    clusters[free[find_segments(borders, begin)]] = -1
     parts = number_by_appearance(np.where(clusters < len(numbers) - 1, -1, clusters))
     clusters = np.where(parts < 0, numbers[np.where(parts < 0, clusters, -1) + 1], actions + parts)
     # Occurrences are numbered last.
     if len(found):
-        before = np.maximum(_find_segments(found.starts, begin), 0)
+        before = np.maximum(find_segments(found.starts, begin), 0)
         inside = (found.starts[before] <= begin) & (begin < found.stops[before])
         first = actions + int(parts.max(initial=-1)) + 1
         clusters[inside] = first + found.clusters[before[inside]]
@@ -311,12 +269,7 @@ def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) 
 def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments:
     """Drop the primitives of clusters that neither repeat nor move.
 
-    Parameters
-    ----------
-    segments : Segments
-    rows : (frames, dims) array
-    near : float
-        A repetition moves if one of its poses is farther from its mean pose than this.
+    A repetition moves if one of its poses is farther from its mean pose than ``near``.
     """
     actions, repeats = segments.labels[segments.parents], segments.repeats
     several = segments.counts[segments.parents] > 1
@@ -342,16 +295,10 @@ def _build_borders(
     The span is -1 for a segment outside all spans.
     """
     borders: Frames = np.unique(np.concatenate([[0, n], starts, stops, *cuts]))
-    spans = _find_segments(starts, borders[:-1])
+    spans = find_segments(starts, borders[:-1])
     # The last span to begin may have ended before. Index -1 finds the appended 0: never inside.
     inside = (spans >= 0) & (borders[:-1] < np.append(stops, 0)[spans])
     return borders, np.where(inside, spans, -1)
-
-
-def _find_segments(borders: Frames, frames: Frames) -> Frames:
-    """Return the segment that contains each frame; -1 before the first."""
-    segments: Frames = np.searchsorted(borders, frames, side="right") - 1
-    return segments
 
 
 def _drop_empty(borders: Frames, labels: Frames) -> tuple[Frames, Frames]:
@@ -366,7 +313,7 @@ def _move_borders_out(found: Occurrences, borders: Frames) -> Frames:
     """Move borders inside an occurrence to its nearer end."""
     if not len(found):
         return borders
-    before = np.maximum(_find_segments(found.starts, borders), 0)
+    before = np.maximum(find_segments(found.starts, borders), 0)
     starts, stops = found.starts[before], found.stops[before]
     inside = (starts < borders) & (borders < stops)
     # At a tie the border moves to the start.

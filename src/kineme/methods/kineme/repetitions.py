@@ -17,8 +17,8 @@ If there is a rest between repetitions, they begin at rest. People perceive the 
 movement is slowest (Zacks, Kumar, Abrams and Mehta 2009), and clips that begin at rest are easier
 to use.
 
-`Repeating` measures how much repetitions shorten the description of a segment. By its samples a
-segment costs half of their mean distances to each other. If it repeats, one repetition describes
+`measure_saving` measures how much repetitions shorten the description of a segment. By its samples
+a segment costs half of their mean distances to each other. If it repeats, one repetition describes
 all. It repeats if the mean of the other repetitions, scaled, explains most of each one. Then this
 share of the cost is saved:
 
@@ -36,7 +36,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,47 +85,32 @@ RAMP = 0.05
 
 @dataclass(frozen=True, eq=False)
 class Movement:
-    """A span of a recording as a path of poses.
-
-    Attributes
-    ----------
-    poses : (frames, dims) array
-        Smoothed poses, centred.
-    middle : (dims,) array
-        The subtracted mean, in which each pose is weighted by its speed.
-    path : (frames + 1,) array
-        Length of the path up to each frame, and to the end.
-    variance : float
-        Mean square of the poses, weighted by speed.
-    """
+    """A span of a recording as a path of poses."""
 
     poses: Floats
+    """Smoothed poses (frames, dims), centred."""
     middle: Floats
+    """The subtracted mean, in which each pose is weighted by its speed."""
     path: Floats
+    """Length of the path up to each frame, and to the end, (frames + 1,)."""
     variance: float
+    """Mean square of the poses, weighted by speed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A possible division of an activity into repetitions.
-
-    Attributes
-    ----------
-    visits : array of int
-        Frames at which the pose is visited.
-    before, after : float
-        Length of the ends, before the first visit and after the last, in repetitions.
-    ends : float
-        Sum of both ends, weighted down if they deviate from the repetitions.
-    unexplained : float
-        Share of the activity that the other repetitions do not explain.
-    """
+    """A possible division of an activity into repetitions."""
 
     visits: Frames
+    """Frames at which the pose is visited."""
     before: float
+    """Length of the end before the first visit, in repetitions."""
     after: float
+    """Length of the end after the last visit."""
     ends: float
+    """Sum of both ends, weighted down if they deviate from the repetitions."""
     unexplained: float
+    """Share of the activity that the other repetitions do not explain."""
 
     @property
     def cost(self) -> float:
@@ -168,14 +153,7 @@ def find_repetitions(features: Rows, start: int, stop: int, preset: KinemeConsta
     """Return the starts of the second, third, ... repetition of an activity, at equal phase.
 
     The first repetition begins with the activity. The others begin at rest, if there are rests.
-
-    Parameters
-    ----------
-    features : (frames, dims) array
-        At the working rate.
-    start, stop : int
-        Frames of the activity.
-    preset : KinemeConstants
+    Features (frames, dims) are at the working rate; the activity is from frame start to stop.
     """
     rows = features[start:stop]
     movement = trace_movement(rows, preset)
@@ -271,16 +249,9 @@ def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     """Move all cuts by the same phase to where movement is slowest.
 
     They stay if there is no rest, or if the first or last repetition would become shorter than
-    half of one.
-
-    Parameters
-    ----------
-    cuts : (cuts,) array of int
-        Starts of the second, third, ... repetition, ascending.
-    path : (frames + 1,) array
-        Length of the path up to each frame, and to the end.
-    averaged : int
-        Frames before and after a frame over which its speed is averaged.
+    half of one. ``cuts`` are the starts of the second, third, ... repetition, and ``path`` the
+    length of the path up to each frame and to the end. The speed of a frame is averaged over
+    ``averaged`` frames before and after it.
 
     Examples
     --------
@@ -315,93 +286,67 @@ def shift_to_rest(cuts: Frames, path: Floats, averaged: int) -> Frames:
     return slowest if (np.diff(slowest) > 0).all() else rests
 
 
-class Division(NamedTuple):
-    """A division into repetitions: its first sample, its end, and the share of cost it saves."""
+def measure_saving(
+    rows: Rows, view: Rows, unit: float, span: tuple[int, int], preset: KinemeConstants
+) -> float:
+    """Return the cost that a span of a view saves by repeating, in samples at the distance `unit`.
 
-    start: int
-    stop: int
-    share: float
-
-
-@dataclass
-class Repeating:
-    """Savings of spans of a recording that repeat themselves.
-
-    Attributes
-    ----------
-    rows : (frames, dims) array
-        Poses or channels at the working rate.
-    preset : KinemeConstants
+    ``rows`` (frames, dims) are the poses or channels at the working rate, ``span`` samples of the
+    view.
     """
+    start, stop = span
+    rate, fps = preset.rate, preset.working_fps
+    rows = rows[round(start / rate * fps) : round(stop / rate * fps)]
+    if not SPAN[0] <= (stop - start) / rate <= SPAN[1] or len(rows) < PLACES:
+        return 0.0
+    # A pose that is visited once per repetition divides the span; the best division counts.
+    movement = trace_movement(rows, preset)
+    divisions = (
+        (_compute_share(movement, visits, preset), visits)
+        for visits in propose_visits(rows, movement, preset)
+    )
+    share, visits = max(
+        divisions,
+        key=lambda each: each[0] * (each[1][-1] - each[1][0]),
+        default=(0.0, np.empty(0, np.int64)),
+    )
+    if share <= 0:
+        return 0.0
+    # Extend by the partial repetitions before the first visit and after the last.
+    ends = assess_division(movement, visits, preset, centering=1.0)
+    period = (visits[-1] - visits[0]) / (len(visits) - 1)
+    first = start + (visits[0] - min(ends.before, 1.0) * period) / fps * rate
+    last = start + (visits[-1] + min(ends.after, 1.0) * period) / fps * rate
+    spread: float = kernels.measure_spread(
+        view, max(round(first), start), min(round(last), stop), MAX_COMPARED
+    )
+    return share * spread / unit
 
-    rows: NDArray[np.float32]
-    preset: KinemeConstants
 
-    def measure_saving(
-        self, view: NDArray[np.float32], unit: float, start: int, stop: int
-    ) -> float:
-        """Return the cost that a segment of the view saves, in samples at the distance `unit`."""
-        best = self.find_division(start, stop)
-        if best is None:
-            return 0.0
-        spread: float = kernels.measure_spread(view, best.start, best.stop, MAX_COMPARED)
-        return best.share * spread / unit
-
-    def find_division(self, start: int, stop: int) -> Division | None:
-        """Return the division of a span of samples that saves most; None if none saves."""
-        rate, fps = self.preset.rate, self.preset.working_fps
-        rows = self.rows[round(start / rate * fps) : round(stop / rate * fps)]
-        if not SPAN[0] <= (stop - start) / rate <= SPAN[1] or len(rows) < PLACES:
-            return None
-        # A pose that is visited once per repetition divides the span.
-        movement = trace_movement(rows, self.preset)
-        divisions = (
-            (self._compute_share(movement, visits), visits)
-            for visits in propose_visits(rows, movement, self.preset)
-        )
-        share, visits = max(
-            divisions,
-            key=lambda each: each[0] * (each[1][-1] - each[1][0]),
-            default=(0.0, np.empty(0, np.int64)),
-        )
-        if share <= 0:
-            return None
-        # Extend by the partial repetitions before the first visit and after the last.
-        ends = assess_division(movement, visits, self.preset, centering=1.0)
-        period = (visits[-1] - visits[0]) / (len(visits) - 1)
-        first = start + (visits[0] - min(ends.before, 1.0) * period) / fps * rate
-        last = start + (visits[-1] + min(ends.after, 1.0) * period) / fps * rate
-        return Division(max(round(first), start), min(round(last), stop), share)
-
-    def _compute_share(self, movement: Movement, visits: Frames) -> float:
-        """Return the share of cost that a division saves, 0 to 1."""
-        # Cheap tests first: the others are skipped if they fail.
-        preset = self.preset
-        share: float = kernels.score_durations(
-            visits,
-            preset.working_fps,
-            preset.max_repetition,
-            preset.chance_period,
-            preset.chance_count,
-            preset.chance_duration,
-        )
-        if share <= 0:
-            return 0.0
-        repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
-        kernels.center_repetitions(repetitions)
-        explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
-        share *= _ramp_up(explained, MIN_EXPLAINED)
-        return share and share * score_one_movement(repetitions, preset)
+def _compute_share(movement: Movement, visits: Frames, preset: KinemeConstants) -> float:
+    """Return the share of cost that a division saves, 0 to 1."""
+    # Cheap tests first: the others are skipped if they fail.
+    share: float = kernels.score_durations(
+        visits,
+        preset.working_fps,
+        preset.max_repetition,
+        preset.chance_period,
+        preset.chance_count,
+        preset.chance_duration,
+    )
+    if share <= 0:
+        return 0.0
+    repetitions = sample_repetitions(movement.poses, movement.path, visits, PLACES)
+    kernels.center_repetitions(repetitions)
+    explained = kernels.explain_variance(movement.poses, movement.path, visits, repetitions)
+    share *= _ramp_up(explained, MIN_EXPLAINED)
+    return share and share * score_one_movement(repetitions, preset)
 
 
 def score_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants) -> float:
     """Return 1 if repetitions are one movement, 0 if they are two, and values between on a ramp.
 
-    Parameters
-    ----------
-    repetitions : (repetitions, places, dims) array
-        Each centred.
-    preset : KinemeConstants
+    Repetitions (repetitions, places, dims) are centred.
     """
     share = _ramp_up(kernels.find_best_parting(repetitions), preset.two_movements)
     return share and share * _ramp_up(
@@ -410,17 +355,10 @@ def score_one_movement(repetitions: NDArray[np.float64], preset: KinemeConstants
 
 
 def measure_channel_energies(centered: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the relative strength of movement of each channel in each repetition.
+    """Return the relative strength of movement of each channel, (repetitions, 1, dims).
 
-    Parameters
-    ----------
-    centered : (repetitions, places, dims) array
-        Repetitions, each centred.
-
-    Returns
-    -------
-    (repetitions, 1, dims) array
-        Root mean squares over the places, divided by their norm over the channels.
+    It is the root mean square over the places of centred repetitions (repetitions, places, dims),
+    divided by the norm over the channels.
 
     Examples
     --------

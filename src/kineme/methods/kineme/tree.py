@@ -35,11 +35,11 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats
 from kineme._util.parallel import make_even_slices, map_threads
 from kineme.methods.kineme import _tree_kernels as kernels
-from kineme.methods.segments import number_by_appearance
+from kineme.methods.kineme.repetitions import measure_saving
+from kineme.methods.segments import find_segments, number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
-    from kineme.methods.kineme.repetitions import Repeating
 
 Rows = NDArray[np.float32]
 Samples = NDArray[np.int64]
@@ -62,24 +62,13 @@ EXHAUSTIVE_UP_TO, SPARSE_LEVELS = 150, 60
 
 @dataclass(frozen=True, eq=False)
 class Level:
-    """Segments in samples or frames, from the start of a recording or part to its end.
-
-    Attributes
-    ----------
-    fine : (segments + 1,) array
-        Borders of the finest segments.
-    borders : (segments + 1,) array
-    labels : (segments,) array
-        Cluster of each, numbered by appearance.
-    """
+    """Segments in samples or frames, from the start of a recording or part to its end."""
 
     fine: Samples
+    """Borders of the finest segments."""
     borders: Samples
     labels: Samples
-
-    def expand_to_samples(self) -> Samples:
-        """Return the cluster of each sample."""
-        return np.repeat(self.labels, np.diff(self.borders))
+    """Cluster of each segment, numbered by appearance."""
 
     def to_frames(self, span: slice, preset: KinemeConstants) -> Level:
         """Convert borders from samples to frames, for the part of a recording in this span."""
@@ -93,22 +82,14 @@ class Level:
 
 
 class FineLevel(NamedTuple):
-    """Finest segments of a view, and their distances.
-
-    Attributes
-    ----------
-    features : (samples, dims) array
-    unit : float
-        Unit of distances.
-    borders : (segments + 1,) array
-    sums : (segments, segments) array
-        As returned by `sum_between_segments`.
-    """
+    """Finest segments of a view (samples, dims), and their distances."""
 
     features: Rows
     unit: float
+    """Unit of distances."""
     borders: Samples
     sums: Floats
+    """As returned by `sum_between_segments`."""
 
 
 def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
@@ -116,29 +97,23 @@ def find_fine_level(features: Rows, preset: KinemeConstants) -> FineLevel:
     width = preset.comparison_width
     unit = compute_median_distance(features, width)
     similarity = np.empty((len(features), min(width, len(features))), np.float32)
-
-    def fill(rows: slice) -> None:
-        kernels.compute_similarity_band(features, unit, rows.start, rows.stop, similarity)
-
-    map_threads(fill, make_even_slices(len(features)))
+    map_threads(
+        lambda part: kernels.compute_similarity_band(
+            features, unit, part.start, part.stop, similarity
+        ),
+        make_even_slices(len(features)),
+    )
     # Cheapest division into segments of similar samples, at most `width` long. The kernel counts
     # each pair twice, so a border must cost twice as much there.
     borders = kernels.find_change_points(similarity, 2 * preset.samples(preset.fine_cost))
     return FineLevel(features, unit, borders, sum_between_segments(features, borders, unit))
 
 
-def find_level(
-    fine: FineLevel, preset: KinemeConstants, repeating: Repeating | None = None
-) -> Level:
+def find_level(fine: FineLevel, preset: KinemeConstants, rows: Rows | None = None) -> Level:
     """Return the segments of a view at the level of the shortest description.
 
-    Parameters
-    ----------
-    fine : FineLevel
-    preset : KinemeConstants
-    repeating : Repeating, optional
-        Measures the saving of spans that repeat; by default there are no savings. Savings reduce
-        the cost of a level, but do not change its grouping.
+    With ``rows``, the poses or channels (frames, dims) at the working rate, segments that repeat
+    save a part of their cost. Savings reduce the cost of a level, but do not change its grouping.
     """
     borders, sums = fine.borders, fine.sums
     tree = list_levels(borders, sums.copy())
@@ -160,8 +135,8 @@ def find_level(
         cost = level.cost
         for span, alone in zip(pairwise(level.borders.tolist()), level.alone, strict=True):
             if alone > segment_cost:  # smaller savings are not worth a border
-                if repeating is not None and span not in savings:
-                    savings[span] = repeating.measure_saving(fine.features, fine.unit, *span)
+                if rows is not None and span not in savings:
+                    savings[span] = measure_saving(rows, fine.features, fine.unit, span, preset)
                 cost -= min(savings.get(span, 0.0), alone)
         if cost < cheapest:
             best, cheapest = level, cost
@@ -169,37 +144,23 @@ def find_level(
 
 
 class Grouped(NamedTuple):
-    """A level of the tree, with its segments grouped into clusters.
-
-    Attributes
-    ----------
-    borders : (segments + 1,) array
-        Samples, from 0 to the end.
-    labels : (segments,) array
-        Cluster of each, numbered by appearance.
-    cost : float
-        Cost of the description, without the savings of segments that repeat.
-    alone : (segments,) array
-        Cost of each segment as a cluster of its own: the largest possible saving.
-    """
+    """A level of the tree, with its segments grouped into clusters."""
 
     borders: Samples
+    """From 0 to the end."""
     labels: Samples
+    """Cluster of each segment, numbered by appearance."""
     cost: float
+    """Cost of the description, without the savings of segments that repeat."""
     alone: Floats
+    """Cost of each segment as a cluster of its own: the largest possible saving."""
 
 
 def compute_median_distance(features: Rows, width: int) -> float:
-    """Return the median distance of samples that are near in time; 1 if all are equal.
+    """Return the median distance of samples at most ``width`` samples apart; 1 if all are equal.
 
     The median of all distances would grow with the length of a recording, as an hour varies more
     than each of its minutes.
-
-    Parameters
-    ----------
-    features : (samples, dims) array
-    width : int
-        Largest difference in time of two samples, in samples.
     """
     chosen = spread_samples(0, len(features), MEDIAN_SAMPLES)
     # In a very long recording, neighbours among the chosen samples must still be a pair.
@@ -226,11 +187,12 @@ def compute_mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     ends = np.concatenate([[0], np.cumsum([len(group) for group in groups])])
     chosen = np.concatenate(groups)
     means = np.zeros((len(groups), len(groups)))
-
-    def fill(rows: slice) -> None:
-        kernels.compute_mean_distances(features, chosen, ends, rows.start, rows.stop, means)
-
-    map_threads(fill, make_even_slices(len(groups)))
+    map_threads(
+        lambda part: kernels.compute_mean_distances(
+            features, chosen, ends, part.start, part.stop, means
+        ),
+        make_even_slices(len(groups)),
+    )
     # The kernel fills the upper triangle only.
     return np.triu(means) + np.triu(means, 1).T
 
@@ -238,11 +200,7 @@ def compute_mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
 def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
     """Return the borders of each level, as indices of `borders`, from one segment to all.
 
-    Parameters
-    ----------
-    borders : (segments + 1,) array
-    sums : (segments, segments) array
-        As returned by `sum_between_segments`; is overwritten.
+    ``sums`` are those of `sum_between_segments`; they are overwritten.
     """
     lengths = np.diff(borders).astype(np.float64)
     alive = list(range(len(lengths)))
@@ -273,12 +231,7 @@ def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
 def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> Grouped:
     """Group segments into clusters that are long enough, at the least cost.
 
-    Parameters
-    ----------
-    borders : (segments + 1,) array
-    sums : (segments, segments) array
-        Summed distances of their samples.
-    preset : KinemeConstants
+    ``sums`` (segments, segments) are summed distances of their samples.
     """
     lengths = np.diff(borders).astype(np.float64)
     labels = np.empty(len(lengths), np.int64)
@@ -359,18 +312,11 @@ def spread_samples(start: int, stop: int, most: int) -> Samples:
 
 
 def choose_part_ends(rows: Rows | Floats, longest: int, side: int) -> list[int]:
-    """Divide rows into parts of similar length, at the nearby frames where they change most.
+    """Divide rows (frames, dims) into parts of similar length, where they change most.
 
     The result starts with 0 and ends with the number of rows. Ends of equal parts of at most
-    `longest` frames are shifted by up to `MAX_SHIFT` of a part.
-
-    Parameters
-    ----------
-    rows : (frames, dims) array
-    longest : int
-        Largest number of frames of an equal part.
-    side : int
-        Frames before and after an end whose means and mean changes are compared.
+    `longest` frames are shifted by up to `MAX_SHIFT` of a part, to where means and mean changes of
+    `side` frames before and after them differ most.
 
     Examples
     --------
@@ -412,18 +358,9 @@ def link_parts(
 ) -> Level:
     """Concatenate the parts of a recording, and merge clusters of different parts.
 
-    Parameters
-    ----------
-    features : (samples, dims) array
-        View of the whole recording.
-    at : (samples,) array
-        Frame of each sample.
-    parts : sequence of Level
-        In frames.
-    unit : float
-        Unit of distances.
-    price : float
-        Cost of a cluster in a part, in samples at a distance of one unit.
+    ``features`` (samples, dims) are a view of the whole recording in which distances have the unit
+    ``unit``, and ``at`` the frame of each sample. Parts are in frames. ``price`` is the cost of a
+    cluster in a part, in samples at a distance of one unit.
     """
     if len(parts) == 1:
         return parts[0]
@@ -434,7 +371,7 @@ def link_parts(
     ends = np.concatenate([[0], *(part.borders[1:] for part in parts)])
     fine = np.concatenate([[0], *(part.fine[1:] for part in parts)])
     # Cluster of each sample; some samples of each cluster are compared.
-    per_sample = labels[np.searchsorted(ends, at, side="right") - 1]
+    per_sample = labels[find_segments(ends, at)]
     sizes = np.bincount(per_sample, minlength=int(firsts[-1]))
     if sizes.all():  # clusters without a sample cannot be compared
         groups = [np.flatnonzero(per_sample == cluster) for cluster in range(len(sizes))]
@@ -453,19 +390,9 @@ def match_clusters_across_parts(
     """Merge clusters of different parts that are similar; return a number for each cluster.
 
     Two clusters are merged if they are nearer to each other than either is to any other cluster of
-    its own part. If both parts have one cluster only, they are merged if this costs less than a
-    cluster.
-
-    Parameters
-    ----------
-    means : (clusters, clusters) array
-        Mean distances of their samples, in units.
-    sizes : (clusters,) array
-        Number of samples of each.
-    part_of : (clusters,) array
-        Part of each cluster.
-    price : float
-        Cost of a cluster in a part, in samples at a distance of one unit.
+    its own part. If both parts have one cluster only, they are merged if this costs less than
+    ``price``. ``means`` (clusters, clusters) are mean distances of samples in units, ``sizes`` the
+    numbers of samples, ``part_of`` the part of each cluster.
 
     Examples
     --------

@@ -42,18 +42,12 @@ TINY = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """All views of a recording, at `preset.rate`.
-
-    Attributes
-    ----------
-    views : list of (samples, dims) array
-        All channels, in each scale of the preset.
-    halves : list of (samples, dims) array
-        Each half of the channels, in the first and in the last scale.
-    """
+    """All views of a recording, each (samples, dims) at `preset.rate`."""
 
     views: list[NDArray[np.float32]]
+    """All channels, in each scale of the preset."""
     halves: list[NDArray[np.float32]]
+    """Each half of the channels, in the first and in the last scale."""
 
 
 class Scale(NamedTuple):
@@ -70,15 +64,10 @@ def compute_views(
     *,
     joints: bool = False,
 ) -> Views:
-    """Compute the statistics of channels in each scale of the preset.
+    """Compute the statistics of channels (frames, channels) in each scale of the preset.
 
-    Parameters
-    ----------
-    channels : (frames, channels) array
-        At the working rate of the preset.
-    preset : KinemeConstants
-    joints : bool
-        Whether channels are computed from positions of joints.
+    Channels are at the working rate. ``joints`` tells whether they are computed from positions of
+    joints.
     """
     centred = channels - channels.mean(axis=0)
     deviations = np.sqrt((centred**2).mean(axis=0))
@@ -156,24 +145,19 @@ def _make_views(
             if scale.change_window
             else divide_by_deviation(values, len(channels), scale.weight)
         )
-        steps = max(1, round(preset.samples(VELOCITY_WINDOW)))
-        weight = velocity_weight
-        views.append(append_velocities(view, len(channels), steps, weight) if weight else view)
+        if velocity_weight:
+            steps = max(1, round(preset.samples(VELOCITY_WINDOW)))
+            view = append_velocities(view, len(channels), steps, velocity_weight)
+        views.append(view)
     return views
 
 
 def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
     """Return a map that reduces the variance that channels share, and keeps deviations of 1.
 
-    Return None if nothing is reduced. Memory grows with the square of the smaller side of the
-    array.
-
-    Parameters
-    ----------
-    scaled : (frames, channels) array
-        With a mean of 0 and a deviation of 1 (0 for constant channels).
-    most : float
-        Largest variance in any direction of the space of channels.
+    Return None if nothing is reduced. ``scaled`` (frames, channels) has a mean of 0 and a deviation
+    of 1, or 0 for constant channels. ``most`` is the largest variance in any direction of the space
+    of channels. Memory grows with the square of the smaller side of the array.
     """
     frames, channels = scaled.shape
     if most >= channels:  # the total variance is `channels`
@@ -198,12 +182,8 @@ def reduce_shared(scaled: Floats, most: float) -> Reduction | None:
 def divide_by_deviation(statistics: Floats, channels: int, weight: float) -> NDArray[np.float32]:
     """Divide means, and each band, by their overall deviation to the power `weight`.
 
-    Parameters
-    ----------
-    statistics : (samples, groups * channels) array
-    channels : int
-    weight : float
-        1 gives each group the same weight, 0 does not change them.
+    Statistics are (samples, groups * channels). A weight of 1 gives each group the same weight, 0
+    does not change them.
     """
     centred = statistics - statistics.mean(axis=0)
     # Columns are grouped: means of all channels, then energies of all in each band.
@@ -239,14 +219,8 @@ def choose_view(
 ) -> int:
     """Return the index of the first or the last answer: the one that agrees more with all.
 
-    Parameters
-    ----------
-    answers : sequence of (samples,) array
-        Clusters of the samples, for each view.
-    others : sequence of (samples,) array
-        Answers that vote, but cannot be chosen.
-    margin : float
-        Mean mutual information by which the last must agree more to be chosen.
+    An answer holds the cluster of each sample in one view. ``others`` vote, but cannot be chosen.
+    The last must agree more by a mean mutual information of ``margin`` to be chosen.
 
     Examples
     --------

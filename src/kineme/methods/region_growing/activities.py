@@ -35,7 +35,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from math import ceil
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +46,11 @@ from scipy.sparse.csgraph import connected_components
 from kineme._util.parallel import map_threads
 from kineme.methods.region_growing import _kernels
 from kineme.methods.region_growing.neighbors import NeighborGraph
-from kineme.methods.region_growing.warping import Step, WarpingPaths, warping_paths
+from kineme.methods.region_growing.warping import WarpingPaths, warping_paths
 from kineme.methods.segments import number_by_appearance
+
+if TYPE_CHECKING:
+    from kineme.methods.region_growing.constants import RegionGrowingConstants
 
 Cuts = NDArray[np.int64]
 HALF = 0.5
@@ -66,29 +70,28 @@ class ActivityCuts:
         return np.union1d(self.forward, self.backward)
 
 
-def find_square_cuts(
-    graph: NeighborGraph,
-    *,
-    min_gap: int,
-    min_count: int,
-    min_distance: int,
+def find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
+    """Find the frames at which a growing region stops finding new neighbours.
+
+    The graph is without its main diagonal. A region must have more than ``growth_count``
+    neighbours, and ends after ``growth_gap`` without a new one.
+    """
+    min_gap = max(1, preset.frames(preset.growth_gap))
+    if preset.growth == "squares":
+        min_distance = preset.frames(preset.growth_distance)
+        return _grow_squares(graph, min_gap, preset.growth_count, min_distance)
+    return _scan_lines(graph, min_gap, preset.growth_count)
+
+
+def _grow_squares(
+    graph: NeighborGraph, min_gap: int, min_count: int, min_distance: int
 ) -> ActivityCuts:
-    """Find the frames where a growing square region stops finding new neighbours (2014).
+    """Find the cuts of a growing square (2014).
 
-    Forward cuts are the peaks of the number of neighbours inside the region. A new
-    region starts when ``min_gap`` frames in a row have added none. Backward cuts are
-    found in the same way from the end, ``min_gap`` frames after the peaks.
-
-    Parameters
-    ----------
-    graph : NeighborGraph
-        Of n frames, without the main diagonal.
-    min_gap : int
-        Number of frames without a new neighbour that ends a region.
-    min_count : int
-        A region must have more neighbours than this.
-    min_distance : int
-        Frames; of two peaks within this distance only the higher is kept.
+    Forward cuts are the peaks of the number of neighbours inside the square. A new square starts
+    when ``min_gap`` frames in a row have added none. Backward cuts are found in the same way from
+    the end, ``min_gap`` frames after the peaks. Of two peaks within ``min_distance`` frames only
+    the higher is kept.
     """
     n = len(graph)
     # Grouped by the later frame (True), at which the square includes both.
@@ -104,21 +107,11 @@ def find_square_cuts(
     return ActivityCuts(forward, backward)
 
 
-def find_scan_line_cuts(graph: NeighborGraph, *, min_gap: int, min_count: int) -> ActivityCuts:
-    """Find the frames where a region scanned line by line stops finding neighbours (2017).
+def _scan_lines(graph: NeighborGraph, min_gap: int, min_count: int) -> ActivityCuts:
+    """Find the cuts of a region that is scanned line by line (2017).
 
-    Each frame adds its own neighbours inside the region. A region with more than
-    ``min_count`` neighbours ends after ``min_gap`` frames in a row without any. The cut
-    is at the last frame that had one. Backward regions also end at forward cuts.
-
-    Parameters
-    ----------
-    graph : NeighborGraph
-        Of n frames, without the main diagonal.
-    min_gap : int
-        Number of frames without a neighbour that ends a region.
-    min_count : int
-        A region must have more neighbours than this.
+    Each frame adds its own neighbours inside the region. The cut is at the last frame that had one.
+    Backward regions also end at forward cuts.
     """
     forward = _kernels.scan_lines_forward(graph.indptr, graph.indices, min_gap, min_count)
     mask = np.zeros(len(graph), np.bool_)
@@ -159,51 +152,48 @@ class PrimitiveCuts:
 
 
 def find_primitive_cuts(
-    graph: NeighborGraph,
-    activity: tuple[int, int],
-    *,
-    steps: Sequence[Step],
-    skip_penalty: float,
-    zero_cost: float,
-    min_nodes: int,
-    separation: int | None,
-    max_slope: float,
-    symmetry: float,
-    min_length: float,
+    graph: NeighborGraph, activity: tuple[int, int], preset: RegionGrowingConstants
 ) -> PrimitiveCuts:
     """Find the frames at which repetitions start inside an activity, ascending.
 
-    Parameters
-    ----------
-    graph : NeighborGraph
-        With the main diagonal.
-    activity : (int, int)
-        (first, last), both inclusive; neighbouring activities share the border frame.
-    steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
-        As in `kineme.methods.region_growing.warping.warping_paths`.
-    symmetry : float
-        Share of a path's rows and columns that another path (or itself) must match with rows and
-        columns exchanged (symmetry coherence).
-    min_length : float
-        Frames; cuts closer than this to a border of the activity are dropped. Of two cuts closer
-        than this, the one with the shorter path is dropped.
+    The graph is with its main diagonal. The activity is (first, last), both inclusive; neighbouring
+    activities share the border frame. A path must have a mirror image: another path, or itself,
+    matches enough of its rows and columns with rows and columns exchanged (symmetry coherence).
+    Cuts closer to a border of the activity than the shortest primitive are dropped. Of two cuts
+    closer than this, the one with the shorter path is dropped.
     """
     first, last = activity
     # Rows and columns have the same box: the activity is compared with itself.
     box = (first, last + 1)
-    paths = warping_paths(
-        graph,
-        box,
-        box,
-        steps=steps,
-        skip_penalty=skip_penalty,
-        zero_cost=zero_cost,
-        min_nodes=min_nodes,
-        separation=separation,
-    )
-    coherent = _kernels.mark_coherent_paths(paths.ptr, paths.rows, paths.columns, symmetry)
-    paths = paths.select(coherent & paths.is_within_slope(max_slope))
+    paths = _find_paths(graph, box, box, preset, shortest=preset.min_path)
+    coherent = _kernels.mark_coherent_paths(paths.ptr, paths.rows, paths.columns, preset.symmetry)
+    paths = paths.select(coherent & paths.is_within_slope(preset.max_slope))
+    min_length = preset.min_primitive * preset.working_fps
     return _choose_cuts(paths, first + min_length, last - min_length, min_length)
+
+
+def _find_paths(
+    graph: NeighborGraph,
+    rows: tuple[int, int],
+    columns: tuple[int, int],
+    preset: RegionGrowingConstants,
+    *,
+    shortest: float,
+    max_slope: float | None = None,
+) -> WarpingPaths:
+    """Return the warping paths in a box that last ``shortest`` seconds or longer."""
+    separation = preset.path_separation
+    return warping_paths(
+        graph,
+        rows,
+        columns,
+        steps=preset.steps,
+        skip_penalty=preset.skip_penalty * preset.radius,  # the constant is in radii
+        zero_cost=preset.zero_cost,
+        min_nodes=ceil(shortest * preset.working_fps),
+        separation=None if separation is None else preset.frames(separation),
+        max_slope=max_slope,
+    )
 
 
 def _choose_cuts(paths: WarpingPaths, low: float, high: float, min_length: float) -> PrimitiveCuts:
@@ -236,59 +226,41 @@ class Clustering:
 
 
 def cluster_segments(
-    graph: NeighborGraph,
-    borders: NDArray[np.int64],
-    *,
-    steps: Sequence[Step],
-    skip_penalty: float,
-    zero_cost: float,
-    min_nodes: int,
-    separation: int | None,
-    max_slope: float,
-    coverage: float,
-    interpolate: bool,
-    connection: Literal["weak", "strong"],
+    graph: NeighborGraph, borders: NDArray[np.int64], preset: RegionGrowingConstants
 ) -> Clustering:
     """Group the segments that are linked by warping paths.
 
-    Parameters
-    ----------
-    graph : NeighborGraph
-        With the main diagonal.
-    borders : ndarray of shape (segments + 1,)
-        Ascending frames; segment g is ``borders[g]..borders[g + 1]``, both inclusive.
-    steps, skip_penalty, zero_cost, min_nodes, separation, max_slope
-        As in `kineme.methods.region_growing.warping.warping_paths`.
-    coverage : float
-        Share of both segments that a path must cover.
-    interpolate : bool
-        Count the rows of a path between the borders of h (2017), or all of them (2014).
-    connection : {"weak", "strong"}
-        Links in one direction suffice (weak), or links in both directions are needed (strong).
+    The graph is with its main diagonal. Segment g is ``borders[g]..borders[g + 1]``, both
+    inclusive.
     """
-    n = len(borders) - 1
+    if preset.cluster_neighbors is not None:
+        graph = graph.nearest(preset.cluster_neighbors)
 
-    # Rows are those of segment g, columns those of the whole recording.
     def find_links(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        paths = warping_paths(
+        # Rows are those of segment g, columns those of the whole recording.
+        rows, columns = (int(borders[g]), int(borders[g + 1]) + 1), (0, graph.n_columns)
+        paths = _find_paths(
             graph,
-            (int(borders[g]), int(borders[g + 1]) + 1),
-            (0, graph.n_columns),
-            steps=steps,
-            skip_penalty=skip_penalty,
-            zero_cost=zero_cost,
-            min_nodes=min_nodes,
-            separation=separation,
-            max_slope=max_slope,
+            rows,
+            columns,
+            preset,
+            shortest=preset.cluster_min_path,
+            max_slope=preset.max_slope,
         )
         linked: tuple[NDArray[np.int64], NDArray[np.float64]] = _kernels.find_linked_segments(
-            paths.ptr, paths.rows, paths.columns, borders, g, coverage, interpolate
+            paths.ptr,
+            paths.rows,
+            paths.columns,
+            borders,
+            g,
+            preset.coverage,
+            preset.interpolate,
         )
         return linked
 
-    targets, shares = zip(*map_threads(find_links, range(n)), strict=True)
+    targets, shares = zip(*map_threads(find_links, range(len(borders) - 1)), strict=True)
     links = _make_link_matrix(targets, shares)
-    _, components = connected_components(links, directed=True, connection=connection)
+    _, components = connected_components(links, directed=True, connection=preset.connection)
     return Clustering(number_by_appearance(components), _find_best_shares(links, components))
 
 
@@ -336,18 +308,13 @@ def classify_symmetry(
 ) -> str:
     """Return the symmetry of an activity: ``symmetric``, ``alternating`` or ``one-sided``.
 
-    Parameters
-    ----------
-    activity : (int, int)
-        (first, last), both inclusive.
-    main, mirrored : PrimitiveCuts
-        As returned by `find_primitive_cuts` for the original and the mirrored frames.
-    gap : float
-        Frames; a mirrored path farther than this from all main ones lies between them.
+    The activity has a start and a stop frame. ``main`` and ``mirrored`` are the cuts for the
+    original and the mirrored frames. A mirrored path that is farther than ``gap`` frames from all
+    main ones lies between them.
     """
-    first, last = activity
+    start, stop = activity
     # Paths in less than half of the frames: the mirrored movement does not occur.
-    if len(np.unique(mirrored.paths.rows)) <= HALF * (last - first + 1):
+    if len(np.unique(mirrored.paths.rows)) <= HALF * (stop - start):
         return "one-sided"
     between = _measure_distances(mirrored.paths, main.paths) > gap
     return "alternating" if between.mean() > HALF else "symmetric"

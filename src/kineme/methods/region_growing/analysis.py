@@ -6,8 +6,7 @@ Features are any array of frames × dims. `RegionsFound` holds the results of al
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import repeat
-from math import ceil
+from itertools import pairwise, repeat
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,14 +23,13 @@ from kineme.methods.region_growing.activities import (
     PrimitiveCuts,
     classify_symmetry,
     cluster_segments,
+    find_activity_cuts,
     find_primitive_cuts,
-    find_scan_line_cuts,
-    find_square_cuts,
     merge_cuts,
 )
 from kineme.methods.region_growing.neighbors import NeighborGraph, neighbor_graph
 from kineme.methods.region_growing.warping import label_components
-from kineme.methods.segments import make_columns, number_by_appearance
+from kineme.methods.segments import find_segments, make_columns, number_by_appearance
 
 if TYPE_CHECKING:
     from kineme.methods.region_growing.constants import RegionGrowingConstants
@@ -82,8 +80,7 @@ class RegionsFound:
 
     def columns(self) -> Columns:
         """Return the segment table; an activity is in the cluster of most of its frames."""
-        # Activity of each primitive: the last one that begins at or before it.
-        parents = np.searchsorted(self.borders, self.primitives[:-1], side="right") - 1
+        parents = find_segments(self.borders, self.primitives[:-1])
         labels = self.clustering.labels
         is_single = np.bincount(labels)[labels] == 1
         # Transitions that are similar to no other segment have no cluster.
@@ -131,10 +128,6 @@ def analyze_regions(
     progress : callable, optional
         Called with the name of each stage before it runs.
 
-    Returns
-    -------
-    RegionsFound
-
     Raises
     ------
     ParameterError
@@ -157,7 +150,7 @@ def analyze_regions(
         graph = _find_neighbors(compared, None, preset)
     with stage("activities"):
         off_diagonal = _make_growth_graph(graph, preset)
-        cuts = _find_activity_cuts(off_diagonal, preset)
+        cuts = find_activity_cuts(off_diagonal, preset)
         borders = _make_borders(cuts.all, len(graph))
         # Neighbours of each frame within its own segment: a segment repeats if it has many.
         n_inside = _kernels.count_inner_neighbors(
@@ -179,11 +172,14 @@ def analyze_regions(
             cuts_inside = [
                 merge_cuts(a.cuts, b.cuts, gap) for a, b in zip(divided, mirrored, strict=True)
             ]
-            symmetry = _classify_symmetry(borders, repeats, divided, mirrored, preset)
+            spans = pairwise(borders.tolist())
+            types = list(map(classify_symmetry, spans, divided, mirrored, repeat(gap)))
+            symmetry = np.where(repeats, types, "")
     with stage("clusters"):
         # Borders of activities are also borders of primitives.
         primitives = _make_borders(np.concatenate([borders, *cuts_inside]), len(graph))
-        clustering = _find_clusters(graph, primitives, preset)
+        # Ends are inclusive, so the last border is the last frame.
+        clustering = cluster_segments(graph, np.minimum(primitives, len(graph) - 1), preset)
     return RegionsFound(
         compared,
         graph,
@@ -222,18 +218,6 @@ def _make_growth_graph(graph: NeighborGraph, preset: RegionGrowingConstants) -> 
     return graph.restrict(radius=preset.growth_radius, min_lag=preset.frames(preset.diagonal_width))
 
 
-def _find_activity_cuts(graph: NeighborGraph, preset: RegionGrowingConstants) -> ActivityCuts:
-    gap = max(1, preset.frames(preset.growth_gap))
-    if preset.growth == "squares":
-        return find_square_cuts(
-            graph,
-            min_gap=gap,
-            min_count=preset.growth_count,
-            min_distance=preset.frames(preset.growth_distance),
-        )
-    return find_scan_line_cuts(graph, min_gap=gap, min_count=preset.growth_count)
-
-
 def _make_borders(cuts: Frames, n: int) -> Frames:
     """Return 0, the cuts with at least one frame on each side, and n."""
     distinct = np.unique(cuts)
@@ -252,66 +236,7 @@ def _find_repeats(
 def _find_primitives(
     graph: NeighborGraph, borders: Frames, preset: RegionGrowingConstants
 ) -> list[PrimitiveCuts]:
-    """Return the cuts inside each activity, with the constants in samples."""
+    """Return the cuts inside each activity."""
     # Ends are inclusive, so the last border is the last frame.
-    frames = np.minimum(borders, len(graph) - 1).tolist()
-
-    def find_cuts(segment: int) -> PrimitiveCuts:
-        return find_primitive_cuts(
-            graph,
-            (frames[segment], frames[segment + 1]),
-            steps=preset.steps,
-            # The constant is in radii.
-            skip_penalty=preset.skip_penalty * preset.radius,
-            zero_cost=preset.zero_cost,
-            min_nodes=ceil(preset.min_path * preset.working_fps),
-            separation=_measure_separation(preset),
-            max_slope=preset.max_slope,
-            symmetry=preset.symmetry,
-            min_length=preset.min_primitive * preset.working_fps,
-        )
-
-    return map_threads(find_cuts, range(len(borders) - 1))
-
-
-def _classify_symmetry(
-    borders: Frames,
-    repeats: NDArray[np.bool_],
-    main: list[PrimitiveCuts],
-    mirrored: list[PrimitiveCuts],
-    preset: RegionGrowingConstants,
-) -> NDArray[np.str_]:
-    """Return the symmetry of each segment that repeats; empty for the others."""
-    gap = preset.min_primitive * preset.working_fps
-    # Last frames, inclusive.
-    last = (borders[1:] - 1).tolist()
-    types = map(
-        classify_symmetry, zip(borders.tolist(), last, strict=False), main, mirrored, repeat(gap)
-    )
-    return np.where(repeats, list(types), "")
-
-
-def _find_clusters(
-    graph: NeighborGraph, segments: Frames, preset: RegionGrowingConstants
-) -> Clustering:
-    """Return the clusters of segments, with the constants in samples."""
-    if preset.cluster_neighbors is not None:
-        graph = graph.nearest(preset.cluster_neighbors)
-    return cluster_segments(
-        graph,
-        # Ends are inclusive, so the last border is the last frame.
-        np.minimum(segments, len(graph) - 1),
-        steps=preset.steps,
-        skip_penalty=preset.skip_penalty * preset.radius,
-        zero_cost=preset.zero_cost,
-        min_nodes=ceil(preset.cluster_min_path * preset.working_fps),
-        separation=_measure_separation(preset),
-        max_slope=preset.max_slope,
-        coverage=preset.coverage,
-        interpolate=preset.interpolate,
-        connection=preset.connection,
-    )
-
-
-def _measure_separation(preset: RegionGrowingConstants) -> int | None:
-    return None if preset.path_separation is None else preset.frames(preset.path_separation)
+    spans = list(pairwise(np.minimum(borders, len(graph) - 1).tolist()))
+    return map_threads(lambda span: find_primitive_cuts(graph, span, preset), spans)

@@ -21,8 +21,7 @@ from kineme.methods.base import (
     Unit,
     constant,
 )
-
-Step = tuple[int, int]
+from kineme.methods.region_growing import Step
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,12 +17,11 @@ from typing import TYPE_CHECKING, Self
 from numpy.typing import ArrayLike
 
 from kineme.methods.base import Mirror, Progress
-from kineme.methods.region_growing.constants import RegionGrowingConstants, Step
+from kineme.methods.region_growing import BASIC_STEPS
+from kineme.methods.region_growing.constants import RegionGrowingConstants
 
 if TYPE_CHECKING:
     from kineme.methods.region_growing.analysis import RegionsFound
-
-BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 POSE_CHANNELS, POSE_DEVIATION = 15, 0.13
 """Numbers in a pose, and their mean standard deviation in recordings of CMU's subject 86, m."""

@@ -20,13 +20,10 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import as_indices, check_type, is_number
 from kineme.errors import ParameterError
-from kineme.methods.region_growing import _kernels
+from kineme.methods.region_growing import BASIC_STEPS, Step, _kernels
 from kineme.methods.region_growing.neighbors import NeighborGraph
 
-Step = tuple[int, int]
 Ints = NDArray[np.int32]
-
-BASIC_STEPS: tuple[Step, ...] = ((1, 1), (1, 0), (0, 1))
 
 
 @dataclass(frozen=True, eq=False)
