@@ -22,6 +22,7 @@ from kineme.methods.kineme.pipeline import KinemeFound
 from kineme.methods.kineme.preset import KINEME
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.region_growing.activities import find_primitive_cuts
+from kineme.methods.region_growing.analysis import RegionsFound
 from kineme.methods.region_growing.preset import KRUEGER2017
 from kineme.methods.region_growing.preset import VOEGELE2014 as PRESET
 from kineme.methods.region_growing.warping import label_components
@@ -124,7 +125,7 @@ def draw_bundling(pair: np.ndarray, motion: kineme.Motion, segments: kineme.Segm
         panel.spines[["top", "right"]].set_visible(False)
 
 
-def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:
+def draw_regions(pair: np.ndarray, analysis: RegionsFound) -> None:
     """Regions grown forward and backward, on the neighbours they count."""
     n = len(analysis.graph)
     graph = analysis.graph.nearest(PRESET.growth_neighbors)
@@ -142,7 +143,7 @@ def draw_regions(pair: np.ndarray, analysis: kineme.Analysis) -> None:
         axes.set_title(title, loc="left", fontsize=10)
 
 
-def draw_paths(pair: np.ndarray, analysis: kineme.Analysis) -> None:
+def draw_paths(pair: np.ndarray, analysis: RegionsFound) -> None:
     """The connected components inside one activity, and the paths and cuts they give."""
     first, stop = analysis.borders[ZOOMED : ZOOMED + 2].tolist()
     image, extent = components(analysis.graph, first, stop)

@@ -15,11 +15,10 @@ import numpy as np
 
 from kineme._util.arrays import Float32s, Floats, Ints, Masks
 from kineme.errors import KinemeWarning
-from kineme.features.channels import choose_frames
 from kineme.live.events import Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
 from kineme.methods.kineme.tree import compute_mean_distances, compute_median_distance
-from kineme.methods.kineme.views import compute_views
+from kineme.methods.kineme.views import compute_first_view
 from kineme.methods.prepare import prepare_motion, prepare_signals
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
 from kineme.recordings import Motion, Signals, Skeleton
@@ -225,7 +224,7 @@ class RecentPast:
         preset = self.options.resolved(signals=is_signals)
         if not isinstance(preset, KinemeConstants):  # other methods have no views
             preset = cast(KinemeConstants, SegmentOptions().resolved(signals=is_signals))
-        preset = preset.select_view(0).at_most(self.layout.fps)
+        preset = preset.at_most(self.layout.fps)
         recording = self.layout.make_recording(values, np.zeros(len(values), np.bool_))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", KinemeWarning)
@@ -234,8 +233,7 @@ class RecentPast:
             else:
                 prepared = prepare_motion(recording, preset, self.options.effectors)
         rows = np.concatenate(prepared.features)
-        view = compute_views(rows, preset, joints=prepared.joints).views[0]
-        at = choose_frames(len(rows), preset.working_fps, preset.rate)
+        view, at = compute_first_view(rows, preset, joints=prepared.joints)
         frames = (at * (self.layout.fps / preset.working_fps)).astype(np.int64)
         unit = compute_median_distance(view, preset.comparison_width)
         return view, np.minimum(frames, len(values) - 1), unit

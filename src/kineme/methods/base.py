@@ -360,10 +360,6 @@ class Preset(ABC):
         """Return the preset with its lengths converted to the unit of channels."""
         return self
 
-    def signal_unit(self, features: NDArray[np.float64]) -> float:  # noqa: ARG002
-        """Return the number of standard deviations in one unit of length for these features."""
-        return 1.0
-
     def rate_of(self, values: NDArray[np.float64], fps: float) -> float:  # noqa: ARG002
         """Return the rate at which to treat values (samples, channels): by default ``fps``."""
         return fps

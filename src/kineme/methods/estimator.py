@@ -52,7 +52,7 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         Divide each column by its standard deviation; not for an embedding.
     unit : float, optional
         Length in the columns that counts as one unit of the preset's lengths; by default
-        the preset estimates it from the rows.
+        one standard deviation, or 1 if columns are not standardized.
     emg : bool
         Compute the envelopes of muscle signals first.
     **constants

@@ -7,7 +7,7 @@ their standard deviations.
 Distances of channels are divided by √(window · channels), so that a radius R does not depend on
 the number of channels: the generalised radius r = R √(window · channels) of Krüger et al. 2017.
 Lengths of the published methods are converted from metres to standard deviations (see their
-presets). The method ``kineme`` estimates its unit from the recording.
+presets).
 
 Coordinates of a body's points depend mostly on where somebody stands and which way they face. So
 channels with such coordinates are replaced by distances between the points.
@@ -174,14 +174,14 @@ def prepare_signals(
     *,
     emg: bool = False,
     standardize: bool = True,
-    unit: float | None = None,
+    unit: float = 1.0,
 ) -> Prepared:
     """Return the features of signals between their gaps, at the working rate of the preset.
 
     The preset is one for signals, see `kineme.methods.resolve_preset`. With ``emg``, envelopes of
     muscle signals are computed first. With ``standardize``, channels are divided by their standard
     deviations. A distance of ``unit``, in these or else in the unit of the channels, is one unit of
-    the preset's lengths; by default the preset estimates it.
+    the preset's lengths.
     """
     values = emg_envelope(signals.values, signals.fps) if emg else signals.values
     rows, spans = [], []
@@ -199,8 +199,6 @@ def prepare_signals(
         rows = replace_by_distances(rows, points, preset.working_fps)
         notes.append(f"{len(points)} points with bones: segmented by the distances between them")
     features = _stack_channels(rows, preset, standardize=standardize)
-    if unit is None:
-        unit = preset.signal_unit(features)
     unit_name = "standard deviations" if standardize else "units of the channels"
     if unit != 1:
         features = features / unit

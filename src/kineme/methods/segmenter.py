@@ -84,7 +84,7 @@ def segment(
         Rows of `features` per second; by default the rate of the recording.
     unit : float, optional
         Length in signals or features that counts as one unit of the preset's lengths; by
-        default the preset estimates it from the recording.
+        default one standard deviation, or 1 if channels are not standardized.
     standardize : bool, optional
         Whether each channel is divided by its standard deviation; by default signals are and
         features are not.
@@ -200,7 +200,7 @@ def segment_with_options(
             )
         standardize = features is None if options.standardize is None else options.standardize
         prepared = prepare_signals(
-            source, preset, emg=options.emg, standardize=standardize, unit=options.unit
+            source, preset, emg=options.emg, standardize=standardize, unit=options.unit or 1.0
         )
     elif preset.unit == "standard deviations":
         raise ParameterError(

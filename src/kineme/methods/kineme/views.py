@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats, Ints
-from kineme.features.channels import Mixture, Reduction, compute_statistics
+from kineme.features.channels import Mixture, Reduction, choose_frames, compute_statistics
 
 if TYPE_CHECKING:
     from kineme.methods.kineme.constants import KinemeConstants
@@ -80,6 +80,15 @@ def compute_views(
         requested += [(half, scale) for half in halves for scale in (scales[0], scales[-1])]
     views = _make_views(scaled, requested, preset, preset.velocity_weight if joints else 0.0)
     return Views(views[: len(scales)], views[len(scales) :])
+
+
+def compute_first_view(
+    channels: Floats, preset: KinemeConstants, *, joints: bool = False
+) -> tuple[NDArray[np.float32], Ints]:
+    """Return the first view of channels, and the frame of each of its samples."""
+    preset = preset.select_view(0)
+    frames = choose_frames(len(channels), preset.working_fps, preset.rate)
+    return compute_views(channels, preset, joints=joints).views[0], frames
 
 
 def append_velocities(
