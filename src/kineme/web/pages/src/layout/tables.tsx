@@ -9,7 +9,7 @@ const OVERSCAN = 6; // rows rendered above and below the visible ones
 /** A column's title, or title and tooltip. */
 type Column = string | readonly [title: string, tooltip: string];
 
-interface Row extends HTMLAttributes<HTMLTableRowElement> {
+export interface Row extends HTMLAttributes<HTMLTableRowElement> {
   key: string | number;
   /** Heading of the row, in its first cell. */
   head?: ComponentChildren;

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
-import { computePose, findRoot, getHeading, type Motion } from "../motion";
+import { computePose, createPose, findRoot, getHeading, type Motion } from "../motion";
 import { formatPerson } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
@@ -56,7 +56,7 @@ export class FigureScene {
     this.figures = this.placed.map(
       ({ motion }) => new Figure(this.stage.fog, motion.head, getAnatomy(motion)),
     );
-    this.poses = this.placed.map(({ motion }) => new Float32Array(motion.head.joints.length * 3));
+    this.poses = this.placed.map(({ motion }) => createPose(motion));
     for (const figure of this.figures) this.stage.scene.add(figure.group);
     const lead = this.placed[0];
     if (!lead) return;
@@ -70,10 +70,6 @@ export class FigureScene {
     const scene = `${this.placed.length} ${lead.segment !== null} ${of}`;
     if (scene !== this.contentKey) this.frameFigures();
     this.contentKey = scene;
-  }
-
-  setColors(): void {
-    this.stage.setColors();
   }
 
   /** Pose all figures for the playhead; `seconds` since the last frame. */
@@ -268,7 +264,7 @@ export class FigureScene {
   private computePaths(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
     const joints = listEndJoints(placed.motion);
     const paths = joints.map(() => new Float32Array(3 * times.length));
-    const pose = new Float32Array(placed.motion.head.joints.length * 3);
+    const pose = createPose(placed.motion);
     times.forEach((time, i) => {
       this.placePose(placed, time, pose);
       joints.forEach((joint, k) => paths[k]!.set(pose.subarray(3 * joint, 3 * joint + 3), 3 * i));

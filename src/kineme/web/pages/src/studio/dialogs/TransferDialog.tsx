@@ -3,9 +3,11 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { useStudio, type DialogProps } from "../context";
 import {
+  Button,
   Checkbox,
   Dialog,
   Field,
+  Form,
   Select,
   TextInput,
   toggleMember,
@@ -20,8 +22,7 @@ export function TransferDialog({ close }: DialogProps) {
   const threshold = useSignal("");
   useEffect(() => void session.refresh(), [session]); // files may have been added
   const spread = useSignal(true);
-  const transfer = (event: Event): void => {
-    event.preventDefault();
+  const transfer = (): void => {
     const limit = Number.parseFloat(threshold.value);
     void session.edited.value?.edit({
       kind: "transfer",
@@ -39,7 +40,7 @@ export function TransferDialog({ close }: DialogProps) {
           recordings whose segments have names.
         </p>
       ) : (
-        <form onSubmit={transfer}>
+        <Form onSubmit={transfer}>
           <p class="quiet">
             A knowledge base is a file of movements that have names. Each primitive without a name
             takes that of the most similar one in it, if it is similar enough.
@@ -65,11 +66,11 @@ export function TransferDialog({ close }: DialogProps) {
             Give each cluster the name that most of its members got
           </Checkbox>
           <p class="actions">
-            <button type="submit" class="primary">
+            <Button type="submit" class="primary">
               Transfer labels
-            </button>
+            </Button>
           </p>
-        </form>
+        </Form>
       )}
       <NewKnowledge />
     </Dialog>
@@ -94,12 +95,7 @@ function NewKnowledge() {
       await session.refresh();
     });
   return (
-    <form
-      onSubmit={(event) => {
-        event.preventDefault();
-        void run("knowledge", makeKnowledge);
-      }}
-    >
+    <Form onSubmit={() => void run("knowledge", makeKnowledge)}>
       <h2>Make a knowledge base of recordings with names</h2>
       {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
       <div class="choices">
@@ -115,10 +111,14 @@ function NewKnowledge() {
       </div>
       <p class="actions">
         <TextInput aria-label="Name of the knowledge base" value={name} />
-        <button type="submit" disabled={busy !== "" || !name.value.trim() || !named.length}>
-          Make it {busy && <span class="busy" />}
-        </button>
+        <Button
+          type="submit"
+          disabled={busy !== "" || !name.value.trim() || !named.length}
+          busy={busy !== ""}
+        >
+          Make it
+        </Button>
       </p>
-    </form>
+    </Form>
   );
 }
