@@ -30,9 +30,10 @@ export function readColor(name: string): string {
   const key = `${theme.value} ${name}`; // makes callers depend on the theme
   let color = colors.get(key);
   if (color === undefined) {
-    const style = getComputedStyle(document.documentElement);
+    const root = document.documentElement;
+    root.style.outlineColor = `var(--${name})`; // resolves the variable; nothing is outlined
     colorPen ??= new OffscreenCanvas(1, 1).getContext("2d")!;
-    colorPen.fillStyle = style.getPropertyValue(`--${name}`).trim();
+    colorPen.fillStyle = getComputedStyle(root).outlineColor;
     color = String(colorPen.fillStyle); // normalised by the canvas
     colors.set(key, color);
   }

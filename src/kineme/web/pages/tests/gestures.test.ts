@@ -1,13 +1,9 @@
-import { signal } from "@preact/signals";
 import { beforeEach, expect, test } from "vitest";
-import type { Recording } from "../src/messages";
-import type { RecordingData } from "../src/recordingData";
-import { Store } from "../src/store";
+import type { Store } from "../src/store";
 import { TimelineGestures } from "../src/panels/Timeline";
 import { GUTTER_WIDTH, layOutLanes, type Lane } from "../src/panels/lanes";
-import { createTable, segment } from "./recordings";
+import { createTable, openStore, recording, segment } from "./recordings";
 
-const FPS = 10;
 const PIXELS = 4; // to a frame
 const ROWS = [
   segment(0, 100, { level: "activity" }),
@@ -22,15 +18,7 @@ let lanes: Lane[];
 let gestures: TimelineGestures;
 
 beforeEach(() => {
-  store = new Store();
-  const table = createTable(ROWS);
-  const recording = { n_frames: 100, fps: FPS, segmentation: table } as unknown as Recording;
-  store.add({
-    data: {} as RecordingData,
-    recording: signal(recording),
-    motion: signal(null),
-    keypoints: signal(null),
-  });
+  store = openStore(recording(createTable(ROWS)));
   moves = [];
   store.edit.value = (edit) => {
     if (edit.kind === "move_border") moves.push([edit.level, edit.frame, edit.to]);

@@ -26,7 +26,13 @@ import { TransferDialog } from "./dialogs/TransferDialog";
 import type { Level } from "../messages";
 import { createDeletion, createMerge } from "./editing/edits";
 import { Button, CloseButton, Dialog, NumberInput, ThemeButton } from "../layout/controls";
-import { useSignal, useSignalEffect, type ReadonlySignal, type Signal } from "@preact/signals";
+import {
+  untracked,
+  useSignal,
+  useSignalEffect,
+  type ReadonlySignal,
+  type Signal,
+} from "@preact/signals";
 import { RecordingVideo } from "../panels/Video";
 import { buildPageAddress, readOpenIds } from "./server/address";
 import { formatCount } from "../util";
@@ -37,12 +43,16 @@ import { STUDIO_KEYS } from "./keys";
 
 export function Studio() {
   const store = useStore();
-  const { view } = useStudio();
+  const { session, view } = useStudio();
   const { value: dialog } = view.dialog;
   const close = (): void => {
     if (view.dialog.value === dialog) view.dialog.value = null; // another one may be open by now
   };
   const OpenDialog = dialog && DIALOGS[dialog];
+  useSignalEffect(() => {
+    // Files or names may have been added.
+    if (view.dialog.value) untracked(() => void session.refresh());
+  });
   const hasFigure = Boolean(store.recording.value?.motion);
   const tabs = [
     { id: "segment", title: "Segment", panel: () => <SegmentPanel /> },

@@ -11,7 +11,6 @@ import { Table } from "../../layout/tables";
 export function CompareDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const [busy, run] = useBusy();
-  useEffect(() => void session.refresh(), [session]); // files may have been added
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = (name: string, request: CompareRequest): Promise<void> =>
     run(name, async () => {

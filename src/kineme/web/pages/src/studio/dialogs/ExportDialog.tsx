@@ -1,6 +1,5 @@
 /** Export the segments in any format that the package writes. */
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
 import { Dialog, RadioGroup, useBusy, WorkButton } from "../../layout/controls";
 import { Table } from "../../layout/tables";
 import type { Level } from "../../messages";
@@ -18,7 +17,6 @@ export function ExportDialog({ close }: DialogProps) {
   const level = useSignal<Level | "">("");
   const scope = useSignal<"one" | "all">("one");
   const [busy, run] = useBusy();
-  useEffect(() => void session.refresh(), [session]);
   const recordings = session.state.value?.recordings ?? [];
   const done = recordings.filter((each) => session.list.getStatus(each) === "checked").length;
   const write = (format: string): Promise<void> =>

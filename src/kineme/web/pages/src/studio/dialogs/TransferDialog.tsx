@@ -1,6 +1,5 @@
 /** Transfer labels from a knowledge base of the folder. */
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
 import { useStudio, type DialogProps } from "../context";
 import {
   Button,
@@ -20,7 +19,6 @@ export function TransferDialog({ close }: DialogProps) {
   const chosen = useSignal("");
   const base = chosen.value || (bases[0]?.id ?? "");
   const threshold = useSignal("");
-  useEffect(() => void session.refresh(), [session]); // files may have been added
   const spread = useSignal(true);
   const transfer = (): void => {
     const limit = Number.parseFloat(threshold.value);
@@ -84,7 +82,6 @@ function NewKnowledge() {
   const excluded = useSignal<ReadonlySet<string>>(new Set());
   const name = useSignal("moves");
   const [busy, run] = useBusy();
-  useEffect(() => void session.refresh(), [session]); // names may have been added
   const makeKnowledge = (): Promise<boolean> =>
     session.notifications.attempt("knowledge", async () => {
       const recordings = named.map(({ id }) => id).filter((id) => !excluded.value.has(id));

@@ -330,7 +330,7 @@ function findUndo(later: readonly Turn[]): number {
 }
 
 /** An unconfirmed edit. */
-export interface Unsent {
+interface Unsent {
   name: string;
   edit: Edit;
   /** Revision it was made on; null: the result of the previous edit. */
@@ -360,14 +360,14 @@ function claimTab(name: string): Promise<boolean> {
   });
 }
 
-export function storeUnsent(folder: string, recording: string, unsent: Unsent[]): void {
+function storeUnsent(folder: string, recording: string, unsent: Unsent[]): void {
   const key = `${PREFIX}|${folder}|${recording}|${tab}`;
   if (unsent.length) localStorage.setItem(key, JSON.stringify(unsent));
   else localStorage.removeItem(key);
 }
 
 /** Return edits of this tab before a reload and of closed tabs; this tab now owns them. */
-export async function takeOverUnsent(folder: string, recording: string): Promise<Unsent[]> {
+async function takeOverUnsent(folder: string, recording: string): Promise<Unsent[]> {
   const { held: locks = [] } = await navigator.locks.query();
   const living = new Set(locks.map((lock) => lock.name?.slice(PREFIX.length + 1)));
   living.delete(tab);
