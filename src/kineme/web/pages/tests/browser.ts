@@ -1,6 +1,9 @@
 /** Provide what happy-dom lacks: element sizes and canvases that record their texts. */
-import { vi } from "vitest";
+import { cleanup } from "@testing-library/preact";
+import { afterEach, vi } from "vitest";
 import { ticker } from "../src/drawing";
+
+afterEach(cleanup);
 
 /** Size of every element, CSS pixels. */
 export const WIDTH = 478;

@@ -20,11 +20,7 @@ import {
 } from "../motion";
 import { readColor } from "../drawing";
 
-interface Colors {
-  body: string;
-  joint: string;
-  shadow: string;
-}
+type Colors = Record<"body" | "joint" | "shadow", string>;
 
 const UP = new THREE.Vector3(0, 1, 0);
 const LIGHT = new THREE.Vector3(0.35, 1, 0.25); // direction of the light that casts the shadow

@@ -157,12 +157,15 @@ function measureAnatomy(motion: Motion): Anatomy {
   const seconds = head.n_samples / head.sample_fps;
   for (let i = 0; i < 100; i++) {
     computePose(motion, (seconds * i) / 100, pose);
-    const box = computeBox(pose);
-    if (!box) continue;
-    lowest.push(box.low[1]);
-    extents.push(Math.max(...box.high.map((high, axis) => high - box.low[axis]!)));
+    const axes = [0, 1, 2].map((axis) =>
+      pose.filter((value, k) => k % 3 === axis && !Number.isNaN(value)),
+    );
+    if (!axes[0]!.length) continue;
+    lowest.push(Math.min(...axes[1]!));
+    extents.push(Math.max(...axes.map((values) => Math.max(...values) - Math.min(...values))));
     head.bones.forEach(([a, b], bone) => {
-      const length = computeDistance(pose, a, b);
+      const apart = [0, 1, 2].map((axis) => pose[3 * a + axis]! - pose[3 * b + axis]!);
+      const length = Math.hypot(...apart);
       if (Number.isFinite(length)) lengths[bone]!.push(length);
     });
   }
@@ -206,27 +209,6 @@ function tracePathToRoot(head: MotionHead, joint: number): Set<number> {
   const path = new Set<number>();
   for (let at = joint; at >= 0 && !path.has(at); at = head.parents[at] ?? -1) path.add(at);
   return path;
-}
-
-/** Return the bounding box of the joints that are not missing; null if all are. */
-function computeBox(
-  pose: Float32Array,
-): { low: [number, number, number]; high: [number, number, number] } | null {
-  const low: [number, number, number] = [Infinity, Infinity, Infinity];
-  const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < pose.length; i++) {
-    const value = pose[i]!;
-    if (Number.isNaN(value)) continue;
-    const axis = (i % 3) as 0 | 1 | 2;
-    if (value < low[axis]) low[axis] = value;
-    if (value > high[axis]) high[axis] = value;
-  }
-  return low[0] <= high[0] ? { low, high } : null;
-}
-
-function computeDistance(pose: Float32Array, a: number, b: number): number {
-  const at = (joint: number, axis: number): number => pose[3 * joint + axis]!;
-  return Math.hypot(at(a, 0) - at(b, 0), at(a, 1) - at(b, 1), at(a, 2) - at(b, 2));
 }
 
 /** Return a quantile; 0 of no values. */
