@@ -1,9 +1,6 @@
 /** Provide what happy-dom lacks: element sizes and canvases that record their texts. */
-import { cleanup } from "@testing-library/preact";
-import { afterEach, vi } from "vitest";
+import { vi } from "vitest";
 import { ticker } from "../src/drawing";
-
-afterEach(cleanup);
 
 /** Size of every element, CSS pixels. */
 export const WIDTH = 478;

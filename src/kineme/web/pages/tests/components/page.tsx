@@ -1,6 +1,7 @@
 /** Render studio components with an open recording and a server that edits it. */
-import { render, type RenderResult } from "@testing-library/preact";
+import { cleanup, render, type RenderResult } from "@testing-library/preact";
 import type { JSX } from "preact";
+import { afterEach } from "vitest";
 import { Store, StoreProvider } from "../../src/store";
 import type { Segments, State } from "../../src/messages";
 import { createServices, StudioProvider, type StudioServices } from "../../src/studio/context";
@@ -8,6 +9,8 @@ import type { Api } from "../../src/studio/server/api";
 import { Session } from "../../src/studio/session";
 import { Server } from "../studio/server";
 import { recording } from "../studio/tables";
+
+afterEach(cleanup); // of each file that imports this one
 
 export interface Page extends RenderResult {
   store: Store;
