@@ -54,9 +54,7 @@ def test_the_folder_is_a_page_and_a_review_goes_through_it_with_keys(new_tab, se
     until(page, lambda: "is 20 %" in why.inner_text(), "why it is looked at")
     said = why.inner_text()
     page.keyboard.press("Alt+Shift+ArrowRight")
-    page.keyboard.press("n")
-    page.keyboard.type("hop")
-    page.keyboard.press("Enter")
+    screen.name_segment("hop")
     screen.saved()
     assert why.inner_text() == said
     page.keyboard.press("k")

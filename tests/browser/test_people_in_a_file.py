@@ -33,9 +33,7 @@ def test_two_people_are_corrected_side_by_side(new_tab, tmp_path: Path) -> None:
         def call(name: str) -> None:
             """Name the segment at the playhead."""
             page.locator(".place-viewer canvas").click(position={"x": 5, "y": 300})
-            page.keyboard.press("n")
-            page.keyboard.type(name)
-            page.keyboard.press("Enter")
+            screen.name_segment(name)
             screen.wait(
                 f"k.unsent.length === 0 && k.segments.some((row) => row.label === '{name}')"
             )

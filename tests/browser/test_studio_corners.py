@@ -32,9 +32,7 @@ def test_what_makes_a_preview_the_table_is_in_sight(page, size):
     page.set_viewport_size({"width": size[0], "height": size[1]})
     for segment in screen.lane("primitive")[:30:27]:  # names that are lost, which is said
         screen.click(segment)
-        page.keyboard.press("n")
-        page.keyboard.type(f"name {segment['start_frame']}")
-        page.keyboard.press("Enter")
+        screen.name_segment(f"name {segment['start_frame']}")
         screen.saved()
     page.get_by_role("slider", name="Detail").press("Home")
     for preset in ("kineme", "voegele2014"):

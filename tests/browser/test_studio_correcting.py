@@ -86,9 +86,7 @@ def test_a_cluster_is_named_exported_and_found_again(page, take, tmp_path):
 
 def test_other_parameters_are_a_preview_until_they_are_applied(page, take):
     screen = Screen(page)
-    page.keyboard.press("n")
-    page.keyboard.type("mine")
-    page.keyboard.press("Enter")
+    screen.name_segment("mine")
     screen.saved()
     before = screen.state["segments"]
     page.get_by_label("Preset", exact=True).select_option("voegele2014")
@@ -129,9 +127,7 @@ def test_a_new_segmentation_takes_over_what_people_did_and_the_old_table_can_be_
     page.keyboard.press("Alt+Shift+ArrowRight")
     screen.saved()
     border = screen.state["selected"]["start_frame"]
-    page.keyboard.press("n")
-    page.keyboard.type("mine")
-    page.keyboard.press("Enter")
+    screen.name_segment("mine")
     screen.wait("k.segments.some((row) => row.label === 'mine')")
     screen.saved()
     before = screen.state["segments"]

@@ -102,9 +102,7 @@ def test_the_next_recording_opens_at_its_start_and_its_status_is_shown(new_tab, 
     page.wait_for_timeout(1500)  # what is not there would be asked for late
     screen.opened()
     assert failed == []
-    page.keyboard.press("n")
-    page.keyboard.type("hop")
-    page.keyboard.press("Enter")
+    screen.name_segment("hop")
     screen.saved()
     name = screen.state["name"]
     page.get_by_label("Show recordings that are").select_option("corrected")

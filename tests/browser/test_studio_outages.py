@@ -43,13 +43,17 @@ def test_edits_on_their_way_when_the_server_dies_are_kept_and_sent_and_no_more_a
     page.keyboard.press("s")
     page.get_by_text("Not done:").wait_for()
     assert len(screen.state["unsent"]) == 5
-    mortal.start()
-    new_tab(mortal.address)  # which tells the other one the new token
+    mortal.start()  # has a new token, which the tab learns from the one that is opened now
+    page.get_by_text("started anew").wait_for()
+    new_tab(mortal.address)
     screen.wait("k.unsent.length === 0 && k.saved !== ''")
     saved = saved_primitives(mortal.folder / "take.segments.json")
     assert saved[2] == (border + 3, "hop", True)
     assert screen.starts()[2] == border + 3
     until(page, lambda: page.locator("[data-notice]").count() == 0, "no notice")
+    page.reload()
+    screen.opened()
+    assert screen.labels()[2] == "hop"
     for _ in range(5):
         page.keyboard.press("Control+z")
     screen.wait("k.unsent.length === 0")
@@ -87,9 +91,7 @@ def test_what_is_refused_is_said_until_it_was_read(page, take):
 
     page.clock.install()
     page.route("**/edits", no_room)
-    page.keyboard.press("n")
-    page.keyboard.type("odd")
-    page.keyboard.press("Enter")
+    screen.name_segment("odd")
     notice = page.locator("[data-notice=problem]")
     notice.filter(has_text="“odd” (the label is too odd)").wait_for()
     page.keyboard.press("Shift+ArrowRight")
@@ -114,9 +116,7 @@ def test_held_edits_are_made_on_the_segments_they_were_made_on(new_tab, server, 
     border = first.state["selected"]["start_frame"]
     first.page.keyboard.press("Alt+Shift+ArrowRight")
     first.saved()
-    late.keyboard.press("n")
-    late.keyboard.type("hop")
-    late.keyboard.press("Enter")
+    second.name_segment("hop")
     late.get_by_role("button", name="Make them here").click()
     second.saved()
     assert second.starts()[1] == border + 10

@@ -9,49 +9,12 @@ from screen import Screen, two_tabs
 from studio_server import saved_table
 
 
-def name_segment(page, label: str) -> None:
-    page.keyboard.press("n")
-    page.keyboard.type(label)
-    page.keyboard.press("Enter")
-
-
-def test_a_killed_server_loses_nothing(new_tab, mortal):
-    page = new_tab(mortal.address)
-    screen = Screen(page)
-    screen.opened()
-    name_segment(page, "before")
-    screen.saved()
-    mortal.process.send_signal(signal.SIGSTOP)  # it answers nothing any more
-    page.keyboard.press("Shift+ArrowRight")
-    name_segment(page, "on its way")
-    page.keyboard.press("Shift+ArrowRight")
-    border = screen.state["selected"]["start_frame"]
-    page.keyboard.press("Alt+Shift+ArrowRight")
-    screen.wait("k.unsent.length === 2")
-    mortal.kill()
-    notice = page.locator("[data-notice=trouble]")
-    notice.filter(has_text="“on its way”").wait_for()
-    assert saved_table(mortal.folder / "take.bvh").primitives.label.tolist()[:2] == ["before", ""]
-
-    mortal.start()  # has a new token, which the tab learns from the one that is opened now
-    page.get_by_text("started anew").wait_for()
-    new_tab(mortal.address)
-    screen.wait("k.unsent.length === 0")
-    notice.wait_for(state="detached")
-    table = saved_table(mortal.folder / "take.bvh")
-    assert table.primitives.label.tolist()[:2] == ["before", "on its way"]
-    assert table.primitives.start_frame[2] == border + 10
-    page.reload()
-    screen.opened()
-    assert screen.labels()[:2] == ["before", "on its way"]
-
-
 def test_edits_outlive_the_tab_that_could_not_send_them(new_tab, mortal):
     page = new_tab(mortal.address)
     screen = Screen(page)
     screen.opened()
     mortal.process.send_signal(signal.SIGSTOP)
-    name_segment(page, "kept")
+    screen.name_segment("kept")
     mortal.kill()
     page.locator("[data-notice=trouble]").wait_for()
     page.close()
@@ -66,9 +29,9 @@ def test_a_second_tab_sees_what_the_first_one_does(new_tab, server, take):
     first, second = (Screen(new_tab(server.address_of(take))) for _ in range(2))
     for screen in (first, second):
         screen.opened()
-    name_segment(first.page, "from the first")
+    first.name_segment("from the first")
     second.wait("k.segments.some((row) => row.label === 'from the first')")
-    name_segment(second.page, "from the second")
+    second.name_segment("from the second")
     first.wait("k.segments.some((row) => row.label === 'from the second')")
     first.page.keyboard.press("Control+z")
     second.wait("k.segments.some((row) => row.label === 'from the first')")
@@ -80,7 +43,7 @@ def test_an_edit_of_an_old_table_waits_until_its_author_has_seen_the_new_one(new
     for screen in (first, second):
         screen.opened()
     border = first.starts()[4]
-    name_segment(first.page, "first")
+    first.name_segment("first")
     first.saved()
     second.click(second.lane("primitive")[4])
     late.keyboard.press("Delete")
@@ -99,12 +62,12 @@ def test_an_edit_of_an_old_table_waits_until_its_author_has_seen_the_new_one(new
 
 def test_a_table_that_another_program_wrote_is_not_overwritten_unseen(page, take):
     screen = Screen(page)
-    name_segment(page, "mine")
+    screen.name_segment("mine")
     screen.saved()
     path = take.with_suffix(".segments.json")
     path.write_text(path.read_text().replace("mine", "theirs"))
     page.keyboard.press("Shift+ArrowRight")
-    name_segment(page, "mine, too")
+    screen.name_segment("mine, too")
     notice = page.locator("[data-notice=held]")
     notice.wait_for()
     assert kineme.read_segments(path).primitives.label.tolist()[:2] == ["theirs", ""]

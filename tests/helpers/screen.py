@@ -90,6 +90,12 @@ class Screen:
         middle = (segment["start_s"] + segment["stop_s"]) / 2
         self.page.mouse.click(*self.point(middle, segment["level"]))
 
+    def name_segment(self, label: str) -> None:
+        """The segment at the playhead, with the keyboard."""
+        self.page.keyboard.press("n")
+        self.page.keyboard.type(label)
+        self.page.keyboard.press("Enter")
+
     def drag_border(self, segment: dict[str, Any], seconds: float) -> None:
         """The start of a segment, to another moment."""
         mouse = self.page.mouse

@@ -8,109 +8,91 @@ import { memoize } from "./util";
 import { compareTime, getSegmentName } from "./segments";
 import { formatTime } from "./view";
 
-export interface Confidence {
-  /** Probability that everything about the segment is right; null if unknown. */
-  value: number | null;
-  /** Percentage; empty if unknown. */
-  short: string;
-  /** "confidence" and the percentage; empty if unknown. */
-  text: string;
-  /** Explanation of the value, in sentences. */
-  why: string;
-}
-
 /** One property of a segment and the confidence that it is right. */
 interface Part {
   value: number;
-  of: "start" | "cluster";
+  /** Return a clause that follows "the confidence". */
+  describe: () => string;
 }
 
-/** Return the confidence of a table's segment. */
-export function getConfidence(table: Segments, segment: Segment): Confidence {
-  return new SegmentConfidence(segment, getStatistics(table));
-}
-
-const getStatistics = memoize((table: Segments) => new TableStatistics(table));
-
-/** Counts over the whole table that a segment's confidence depends on. */
-class TableStatistics {
-  readonly members = new Map<string, number>();
-  /** Start frames of activities. */
-  readonly starts = new Set<number>();
-  /** Whether confidences are shares: published methods give one to primitives, none to borders. */
-  readonly isShare: boolean;
-
-  constructor({ segments }: Segments) {
-    this.isShare =
-      segments.some((row) => row.level === "primitive" && row.confidence !== null) &&
-      segments.every((row) => row.border_confidence === null);
-    for (const row of segments) {
-      const key = getClusterKey(row);
-      this.members.set(key, (this.members.get(key) ?? 0) + 1);
-      if (row.level === "activity") this.starts.add(row.start_frame);
-    }
-  }
-}
-
-/** Texts are created lazily: a folder has thousands of segments and shows few of them. */
-class SegmentConfidence implements Confidence {
+/**
+ * The confidence of a table's segment. Texts are created when they are read: a folder has thousands
+ * of segments and shows few of them.
+ */
+export class Confidence {
+  /** Probability that everything about the segment is right; null if unknown. */
   readonly value: number | null;
   private readonly parts: readonly Part[];
 
   constructor(
+    private readonly table: Segments,
     private readonly segment: Segment,
-    private readonly statistics: TableStatistics,
   ) {
-    this.parts = listParts(segment, statistics);
+    this.parts = listParts(table, segment);
     this.value = this.parts.length ? this.parts.reduce((all, part) => all * part.value, 1) : null;
   }
 
+  /** Percentage; empty if unknown. */
   get short(): string {
-    if (this.value === null) return "";
-    return `${Math.round(100 * this.value)} %`;
+    return this.value === null ? "" : `${Math.round(100 * this.value)} %`;
   }
 
+  /** "confidence" and the percentage; empty if unknown. */
   get text(): string {
-    return this.value === null ? "" : `confidence ${this.short}`;
+    return this.short && `confidence ${this.short}`;
   }
 
+  /** Explanation of the value, in sentences. */
   get why(): string {
-    const { segment, statistics, parts, short } = this;
-    if (!parts.length) return explainMissing(segment, statistics);
-    if (statistics.isShare) return `Its confidence is ${short}, a share and no probability.`;
+    const { table, segment, parts, short } = this;
+    if (!parts.length) return explainMissing(table, segment);
+    if (isShare(table)) return `Its confidence is ${short}, a share and no probability.`;
     const least = parts.reduce((least, part) => (part.value < least.value ? part : least));
-    const that = describePart(least, segment);
     return parts.length === 1
-      ? `The confidence ${that} is ${short}.`
-      : `The confidence that all of this is right is ${short}; the lowest is ${that}.`;
+      ? `The confidence ${least.describe()} is ${short}.`
+      : `The confidence that all of this is right is ${short}; the lowest is ${least.describe()}.`;
   }
 }
 
-/** Return a clause that follows "the confidence". */
-function describePart({ of }: Part, segment: Segment): string {
-  if (of === "start") return `that a segment starts at ${formatTime(segment.start_s, 2)}`;
-  return `that this is ${getSegmentName(segment)}`;
+/** Return the start frames of a table's activities. */
+const getActivityStarts = memoize(
+  ({ segments }: Segments) =>
+    new Set(segments.filter(({ level }) => level === "activity").map((row) => row.start_frame)),
+);
+
+/** Return whether confidences are shares: published methods give one to primitives only. */
+function isShare({ segments }: Segments): boolean {
+  return (
+    segments.some((row) => row.level === "primitive" && row.confidence !== null) &&
+    segments.every((row) => row.border_confidence === null)
+  );
 }
 
-function listParts(segment: Segment, around: TableStatistics): Part[] {
-  const { level, start_frame, confidence, border_confidence: border } = segment;
-  const apart = level === "primitive" && around.starts.size > 0;
+function listParts(table: Segments, segment: Segment): Part[] {
+  const { start_frame, start_s, confidence, border_confidence: border } = segment;
   const parts: Part[] = [];
-  if (start_frame > 0 && border !== null && !(apart && around.starts.has(start_frame)))
-    parts.push({ value: border, of: "start" });
-  if (confidence !== null) parts.push({ value: confidence, of: "cluster" });
+  if (start_frame > 0 && border !== null && !startsWithActivity(table, segment))
+    parts.push({
+      value: border,
+      describe: () => `that a segment starts at ${formatTime(start_s, 2)}`,
+    });
+  if (confidence !== null)
+    parts.push({ value: confidence, describe: () => `that this is ${getSegmentName(segment)}` });
   return parts;
 }
 
-function explainMissing(segment: Segment, around: TableStatistics): string {
-  if (segment.level === "primitive" && around.starts.has(segment.start_frame))
-    return "Its confidence is that of its activity, with which it is looked at.";
-  const alone = segment.cluster >= 0 && around.members.get(getClusterKey(segment)) === 1;
-  return alone ? "No other segment is like it." : "Nothing tells its confidence.";
+/** Return whether a primitive begins an activity, which then has the confidence of the start. */
+function startsWithActivity(table: Segments, { level, start_frame }: Segment): boolean {
+  return level === "primitive" && getActivityStarts(table).has(start_frame);
 }
 
-function getClusterKey({ level, cluster }: Segment): string {
-  return `${level} ${cluster}`;
+function explainMissing(table: Segments, segment: Segment): string {
+  if (startsWithActivity(table, segment))
+    return "Its confidence is that of its activity, with which it is looked at.";
+  const { level, cluster } = segment;
+  const members = table.segments.filter((row) => row.level === level && row.cluster === cluster);
+  const alone = cluster >= 0 && members.length === 1;
+  return alone ? "No other segment is like it." : "Nothing tells its confidence.";
 }
 
 /** A segment to review and its confidence. */
@@ -123,7 +105,7 @@ export interface Doubt {
 export function listDoubts(table: Segments): Doubt[] {
   return table.segments
     .filter(({ checked }) => !checked)
-    .map((segment) => ({ segment, confidence: getConfidence(table, segment) }))
+    .map((segment) => ({ segment, confidence: new Confidence(table, segment) }))
     .sort(
       (a, b) =>
         (a.confidence.value ?? 2) - (b.confidence.value ?? 2) || compareTime(a.segment, b.segment),

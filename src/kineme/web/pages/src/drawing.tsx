@@ -2,6 +2,7 @@
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { HTMLAttributes } from "preact";
+import { listen } from "./util";
 
 export type Theme = "dark" | "light";
 
@@ -29,9 +30,10 @@ export function readColor(name: string): string {
   const key = `${theme.value} ${name}`; // makes callers depend on the theme
   let color = colors.get(key);
   if (color === undefined) {
-    const style = getComputedStyle(document.documentElement);
+    const root = document.documentElement;
+    root.style.outlineColor = `var(--${name})`; // resolves the variable; nothing is outlined
     colorPen ??= new OffscreenCanvas(1, 1).getContext("2d")!;
-    colorPen.fillStyle = style.getPropertyValue(`--${name}`).trim();
+    colorPen.fillStyle = getComputedStyle(root).outlineColor;
     color = String(colorPen.fillStyle); // normalised by the canvas
     colors.set(key, color);
   }
@@ -129,8 +131,8 @@ interface PointerHandlers {
 
 export function Canvas({ label, watch, draw, gestures, ...rest }: Props) {
   const ref = useRef<HTMLCanvasElement>(null);
-  const latest = useRef({ watch, draw, gestures });
-  latest.current = { watch, draw, gestures };
+  const latest = useRef({ watch, draw });
+  latest.current = { watch, draw };
   useEffect(() => {
     const canvas = ref.current!;
     const size = signal({ width: 0, height: 0 });
@@ -145,26 +147,27 @@ export function Canvas({ label, watch, draw, gestures, ...rest }: Props) {
       },
       () => paintCanvas(canvas, size.value, latest.current.draw),
     );
-    const onWheel = (event: WheelEvent): void => {
-      if (!latest.current.gestures) return;
-      event.preventDefault();
-      latest.current.gestures.wheel(event);
-    };
-    canvas.addEventListener("wheel", onWheel, { passive: false });
     return () => {
       stop();
       resizeObserver.disconnect();
-      canvas.removeEventListener("wheel", onWheel);
     };
   }, []);
-  const pointers = gestures && {
-    onPointerDown: (event: PointerEvent) => gestures.down(event),
-    onPointerMove: (event: PointerEvent) => gestures.move(event),
-    onPointerUp: (event: PointerEvent) => gestures.up(event),
-    onPointerCancel: () => gestures.cancel(),
-    onPointerLeave: () => gestures.leave(),
-  };
-  return <canvas ref={ref} role="img" aria-label={label} {...pointers} {...rest} />;
+  useEffect(() => {
+    if (!gestures) return;
+    const listeners = {
+      pointerdown: (event: PointerEvent) => gestures.down(event),
+      pointermove: (event: PointerEvent) => gestures.move(event),
+      pointerup: (event: PointerEvent) => gestures.up(event),
+      pointercancel: () => gestures.cancel(),
+      pointerleave: () => gestures.leave(),
+      wheel(event: WheelEvent) {
+        event.preventDefault();
+        gestures.wheel(event);
+      },
+    };
+    return listen(ref.current!, listeners, { passive: false });
+  }, [gestures]);
+  return <canvas ref={ref} role="img" aria-label={label} {...rest} />;
 }
 
 function paintCanvas(
@@ -249,41 +252,24 @@ export function getZoomFactor(event: WheelEvent): number {
 
 const MIN_DISTANCE = 24; // pixels between two fingers; smaller distances would make the factor jump
 
-export class TouchTracker {
-  private readonly down = new Map<number, Point>();
+/** Places of the fingers that touch, by pointer. */
+export type Touches = Map<number, Point>;
 
-  get count(): number {
-    return this.down.size;
-  }
+/** Move a finger and return the pinch, or null unless two fingers touch. */
+export function moveFinger(touches: Touches, finger: number, place: Point): Pinch | null {
+  if (!touches.has(finger)) return null;
+  const before = measureSpan(touches);
+  touches.set(finger, place);
+  const after = measureSpan(touches);
+  if (!before || !after) return null;
+  return { from: before.middle, to: after.middle, factor: before.length / after.length };
+}
 
-  press(finger: number, place: Point): void {
-    this.down.set(finger, place);
-  }
-
-  /** Move a finger and return the pinch, or null unless two fingers touch. */
-  move(finger: number, place: Point): Pinch | null {
-    if (!this.down.has(finger)) return null;
-    const before = this.measureSpan();
-    this.down.set(finger, place);
-    const after = this.measureSpan();
-    if (!before || !after) return null;
-    return { from: before.middle, to: after.middle, factor: before.length / after.length };
-  }
-
-  lift(finger: number): void {
-    this.down.delete(finger);
-  }
-
-  clear(): void {
-    this.down.clear();
-  }
-
-  private measureSpan(): { middle: Point; length: number } | null {
-    const [a, b] = this.down.values();
-    if (!a || !b) return null;
-    const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
-    return { middle, length: Math.max(Math.hypot(a.x - b.x, a.y - b.y), MIN_DISTANCE) };
-  }
+function measureSpan(touches: Touches): { middle: Point; length: number } | null {
+  const [a, b] = touches.values();
+  if (!a || !b) return null;
+  const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+  return { middle, length: Math.max(Math.hypot(a.x - b.x, a.y - b.y), MIN_DISTANCE) };
 }
 
 export type Pen = CanvasRenderingContext2D;

@@ -60,6 +60,19 @@ export function computePose(motion: Motion, seconds: number, out: Float32Array):
   }
 }
 
+/** Return an empty pose for `computePose`. */
+export function createPose({ head }: Motion): Float32Array<ArrayBuffer> {
+  return new Float32Array(3 * head.joints.length);
+}
+
+/** Return the root's position (x, z) at a time; 0 if it is missing. */
+export function getRootPosition(motion: Motion, seconds: number): [number, number] {
+  const pose = createPose(motion);
+  computePose(motion, seconds, pose);
+  const root = 3 * findRoot(motion.head);
+  return [pose[root] || 0, pose[root + 2] || 0];
+}
+
 /** Return the body's heading at a time, radians about y from +z towards +x; 0 if unknown. */
 export function getHeading(motion: Motion, seconds: number): number {
   const { heading, sample_fps } = motion.head;

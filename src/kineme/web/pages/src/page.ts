@@ -12,7 +12,7 @@ const MAX_WAIT = 2; // seconds to wait for a video before going on without it
 const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
 const NAVIGATION_KEYS = [...ARROWS, "Home", "End", "PageUp", "PageDown"];
 const ACTIVATION_KEYS = [" ", "Enter"];
-const NON_TEXT_TYPES = ["range", "checkbox", "radio", "button", "submit", "file", "color"];
+const TEXT_FIELDS = "textarea, input:is([type=text], [type=number], [type=search])";
 
 /** Keys and their actions, as the help shows them. */
 export const PAGE_KEYS: readonly (readonly [string, string])[] = [
@@ -155,7 +155,7 @@ export function isPlayerKey(event: KeyboardEvent): boolean {
   const target = event.target instanceof HTMLElement ? event.target : null;
   if (event.defaultPrevented || target?.closest("dialog[open]")) return false;
   if (!target || target === document.body) return true;
-  if (isTextField(target)) return false;
+  if (target.matches(TEXT_FIELDS)) return false;
   if (event.altKey || event.ctrlKey || event.metaKey) return true; // no control uses these
   return target === clickedElement || !getControlKeys(target).includes(event.key);
 }
@@ -166,18 +166,12 @@ function blurClicked(): void {
     clickedElement.blur();
 }
 
-function isTextField(element: HTMLElement): boolean {
-  if (element instanceof HTMLInputElement) return !NON_TEXT_TYPES.includes(element.type);
-  return element instanceof HTMLTextAreaElement || element.isContentEditable;
-}
-
 /** Return the keys that operate a control. */
 function getControlKeys(element: HTMLElement): readonly string[] {
-  if (element instanceof HTMLInputElement)
-    return element.type === "range" ? NAVIGATION_KEYS : ACTIVATION_KEYS;
-  if (element instanceof HTMLSelectElement || element.closest("[role=tab], [role=separator]"))
+  if (element.matches("[type=range]")) return NAVIGATION_KEYS;
+  if (element.closest("select, [role=tab], [role=separator]"))
     return [...NAVIGATION_KEYS, ...ACTIVATION_KEYS];
-  return element.closest("button, summary, a, label") ? ACTIVATION_KEYS : [];
+  return element.closest("button, input, summary, a, label") ? ACTIVATION_KEYS : [];
 }
 
 /**

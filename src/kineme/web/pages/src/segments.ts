@@ -1,5 +1,5 @@
 /** Query segment tables. */
-import { formatCount, memoize, type Mean, computeMean } from "./util";
+import { formatCount, groupBy, memoize, type Mean, computeMean } from "./util";
 import type { Level, Segment, Segments } from "./messages";
 
 /** A cluster with its members and durations. */
@@ -107,24 +107,21 @@ export function groupClusters(
   primitives: readonly Segment[],
   names: Readonly<Record<string, string>> = {},
 ): Cluster[] {
-  const members = new Map<number, Segment[]>();
-  for (const segment of primitives) {
-    if (segment.cluster < 0) continue;
-    const others = members.get(segment.cluster);
-    if (others) others.push(segment);
-    else members.set(segment.cluster, [segment]);
-  }
-  return [...members.entries()]
+  return [...groupBy(primitives, ({ cluster }) => cluster)]
+    .filter(([id]) => id >= 0)
     .sort(([a], [b]) => a - b)
-    .map(([id, all]) => {
-      const total_s = all.reduce((sum, segment) => sum + getDuration(segment), 0);
-      const label = names[id] ?? "";
-      return { id, label, members: all, total_s, mean_s: total_s / all.length };
+    .map(([id, members]) => {
+      const total_s = sumDurations(members);
+      return { id, label: names[id] ?? "", members, total_s, mean_s: total_s / members.length };
     });
 }
 
 export function getDuration(segment: Segment): number {
   return segment.stop_s - segment.start_s;
+}
+
+function sumDurations(segments: readonly Segment[]): number {
+  return segments.reduce((sum, segment) => sum + getDuration(segment), 0);
 }
 
 /** Return a segment's display name: its label, else its cluster, else its kind. */
@@ -167,16 +164,10 @@ interface LabelCount {
 
 /** Count the labels of a lane, longest total duration first. */
 export function countLabels(lane: readonly Segment[]): LabelCount[] {
-  const counts = new Map<string, LabelCount>();
-  for (const segment of lane) {
-    const { label } = segment;
-    if (!label) continue;
-    const total = counts.get(label) ?? { label, count: 0, total_s: 0 };
-    total.count += 1;
-    total.total_s += getDuration(segment);
-    counts.set(label, total);
-  }
-  return [...counts.values()].sort((a, b) => b.total_s - a.total_s);
+  return [...groupBy(lane, ({ label }) => label)]
+    .filter(([label]) => label)
+    .map(([label, all]) => ({ label, count: all.length, total_s: sumDurations(all) }))
+    .sort((a, b) => b.total_s - a.total_s);
 }
 
 /** An activity with its repetitions and the mean duration of those not excluded. */
@@ -189,13 +180,8 @@ interface RepeatedActivity extends Mean {
 
 /** Return the activities that have repetitions, in time order. */
 export function listRepetitions(table: Segments): RepeatedActivity[] {
-  const inside = new Map<number, Segment[]>();
-  for (const row of getLane(table, "primitive")) {
-    if (row.kind !== "primitive") continue;
-    const others = inside.get(row.activity);
-    if (others) others.push(row);
-    else inside.set(row.activity, [row]);
-  }
+  const repetitions = getLane(table, "primitive").filter(({ kind }) => kind === "primitive");
+  const inside = groupBy(repetitions, ({ activity }) => activity);
   return getLane(table, "activity").flatMap((activity, number) => {
     const rows = inside.get(number) ?? [];
     if (activity.kind === "transition" || !rows.length) return [];

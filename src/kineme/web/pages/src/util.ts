@@ -18,6 +18,21 @@ export function computeMean(values: readonly number[]): Mean {
   return { mean, deviation: values.length > 1 ? Math.sqrt(squares / (values.length - 1)) : null };
 }
 
+/** Return the items with each key, in the order in which keys occur. */
+export function groupBy<Item, Key>(
+  items: readonly Item[],
+  getKey: (item: Item, index: number) => Key,
+): Map<Key, Item[]> {
+  const groups = new Map<Key, Item[]>();
+  items.forEach((item, i) => {
+    const key = getKey(item, i);
+    const group = groups.get(key);
+    if (group) group.push(item);
+    else groups.set(key, [item]);
+  });
+  return groups;
+}
+
 /** Return a function that computes its result once for each object. */
 export function memoize<Key extends object, Value>(
   compute: (key: Key) => Value,

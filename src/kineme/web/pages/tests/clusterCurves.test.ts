@@ -2,6 +2,7 @@ import { deflateSync } from "node:zlib";
 import { expect, test } from "vitest";
 import { MARGIN_LEFT, MARGIN_RIGHT, findNearestCurve } from "../src/panels/curveDrawing";
 import type { ClusterCurves, CycleCurve, ReportCurves } from "../src/messages";
+import { summarizeRanges } from "../src/panels/Curves";
 import { EmbeddedData } from "../src/recordingData";
 
 function cycle(start_frame: number, values: (number | null)[]): CycleCurve {
@@ -10,23 +11,8 @@ function cycle(start_frame: number, values: (number | null)[]): CycleCurve {
 }
 
 function createCurves(channel: string, cycles: CycleCurve[] = []): ClusterCurves {
-  const [mean, sd] = [
-    [1, 2, 3],
-    [0, 0, 0],
-  ];
-  return {
-    channel,
-    unit: "°",
-    n: 1,
-    total: 1,
-    ends: false,
-    left_out: 0,
-    turned: 0,
-    mean,
-    sd,
-    cycles,
-    beside: null,
-  };
+  const counts = { n: 1, total: 1, ends: false, left_out: 0, turned: 0 };
+  return { channel, unit: "°", ...counts, mean: [1, 2, 3], sd: [0, 0, 0], cycles, beside: null };
 }
 
 /** Create the data of a report with these curves. */
@@ -65,4 +51,11 @@ test("a click goes to the nearest curve, and to none that was not recorded there
   const [width, height] = [MARGIN_LEFT + MARGIN_RIGHT + 100, 100];
   expect(findNearestCurve(curves, null, MARGIN_LEFT + 100, 10, width, height)).toBe(1);
   expect(findNearestCurve(curves, null, MARGIN_LEFT, 10, width, height)).toBe(0);
+});
+
+test("ranges are summarized by mean and deviation, without what was not recorded", () => {
+  const both = [cycle(0, [10, null, 100, 40]), cycle(0, [5, 99])];
+  expect(summarizeRanges(both)).toBe("92 ± 2.83");
+  expect(summarizeRanges([...both.slice(0, 1), cycle(0, [null])])).toBe("90");
+  expect(summarizeRanges([])).toBe("");
 });

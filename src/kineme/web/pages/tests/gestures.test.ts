@@ -1,13 +1,9 @@
-import { signal } from "@preact/signals";
 import { beforeEach, expect, test } from "vitest";
-import type { Recording } from "../src/messages";
-import type { RecordingData } from "../src/recordingData";
-import { Store, type Drag } from "../src/store";
+import type { Store } from "../src/store";
 import { TimelineGestures } from "../src/panels/Timeline";
 import { GUTTER_WIDTH, layOutLanes, type Lane } from "../src/panels/lanes";
-import { createTable, segment } from "./recordings";
+import { createTable, openStore, recording, segment } from "./recordings";
 
-const FPS = 10;
 const PIXELS = 4; // to a frame
 const ROWS = [
   segment(0, 100, { level: "activity" }),
@@ -17,23 +13,13 @@ const ROWS = [
 ];
 
 let store: Store;
-let drag: Drag | null;
 let moves: [level: string, frame: number, to: number][];
 let lanes: Lane[];
 let gestures: TimelineGestures;
 
 beforeEach(() => {
-  store = new Store();
-  const table = createTable(ROWS);
-  const recording = { n_frames: 100, fps: FPS, segmentation: table } as unknown as Recording;
-  store.add({
-    data: {} as RecordingData,
-    recording: signal(recording),
-    motion: signal(null),
-    keypoints: signal(null),
-  });
+  store = openStore(recording(createTable(ROWS)));
   moves = [];
-  drag = null;
   store.edit.value = (edit) => {
     if (edit.kind === "move_border") moves.push([edit.level, edit.frame, edit.to]);
   };
@@ -42,11 +28,7 @@ beforeEach(() => {
     { activities: activities.value, primitives: primitives.value, labels: [], others: [] },
     160,
   );
-  gestures = new TimelineGestures(
-    store,
-    () => lanes,
-    (next) => (drag = next),
-  );
+  gestures = new TimelineGestures(store, () => lanes);
 });
 
 /** Create a press on the primitives' lane, some pixels beside a frame. */
@@ -77,7 +59,7 @@ test("a press that hardly moves selects, also beside a border, and moves nothing
   for (const jitter of [0, 1, -1, 4, -4]) {
     press(at(41, 1), at(41, 1 + jitter));
     expect(moves).toEqual([]);
-    expect(drag).toBeNull();
+    expect(store.drag.value).toBeNull();
     expect(store.selected.value?.start_frame).toBe(41);
     store.selection.value = null;
   }
@@ -94,7 +76,7 @@ test("a segment narrower than the grips of its borders can be chosen", () => {
 test("a border goes as far as the pointer, wherever it was taken", () => {
   press(at(41, 3), at(41, 13), at(41, 43));
   expect(moves).toEqual([["primitive", 41, 51]]);
-  expect(drag).toMatchObject({ frame: 41, to: 51 }); // until the table shows it
+  expect(store.drag.value).toMatchObject({ frame: 41, to: 51 }); // until the table shows it
   press(at(40, -4), at(40, -14), at(40, -44));
   expect(moves.at(-1)).toEqual(["primitive", 40, 30]);
 });
@@ -102,9 +84,9 @@ test("a border goes as far as the pointer, wherever it was taken", () => {
 test("a dragged border follows from where it stood, once the press has become a drag", () => {
   gestures.down(at(41, 3));
   gestures.move(at(41, 7));
-  expect(drag).toBeNull();
+  expect(store.drag.value).toBeNull();
   gestures.move(at(41, 8));
-  expect(drag).toMatchObject({ frame: 41, to: 42 });
+  expect(store.drag.value).toMatchObject({ frame: 41, to: 42 });
   expect(gestures.cancelDrag()).toBe(true);
   expect(moves).toEqual([]);
 });

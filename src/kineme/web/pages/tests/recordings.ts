@@ -1,6 +1,15 @@
 /** Create small recordings for tests. */
-import { bareSegment, type MotionHead, type Segment, type Segments } from "../src/messages";
+import { signal } from "@preact/signals";
+import {
+  bareSegment,
+  type MotionHead,
+  type Recording,
+  type Segment,
+  type Segments,
+} from "../src/messages";
 import type { Motion } from "../src/motion";
+import type { RecordingData } from "../src/recordingData";
+import { Store } from "../src/store";
 
 export function segment(start: number, stop: number, more: Partial<Segment> = {}): Segment {
   const level = more.level ?? "primitive";
@@ -22,6 +31,40 @@ export function createTable(segments: Segment[], more: Partial<Segments> = {}): 
   const n_frames = Math.max(...segments.map((each) => each.stop_frame), 0);
   const bare = { schema: "", fps: 10, provenance: {}, timings: {}, cluster_names: {} };
   return { ...bare, n_frames, segments, ...more };
+}
+
+/** Create a recording of 100 frames with a table. */
+export function recording(segmentation: Segments, more: Partial<Recording> = {}): Recording {
+  return {
+    id: "take",
+    name: "take.bvh",
+    n_frames: 100,
+    fps: 10,
+    motion: null,
+    matrix: { fps: 10, tile: 256, sizes: [100] },
+    segmentation,
+    levels: [],
+    video: null,
+    read_options: {},
+    revision: 0,
+    can_undo: false,
+    can_redo: false,
+    saved: "",
+    warnings: [],
+    ...more,
+  };
+}
+
+/** Create a store with an open recording. */
+export function openStore(shown: Recording): Store {
+  const store = new Store();
+  store.add({
+    data: {} as RecordingData,
+    recording: signal(shown),
+    motion: signal(null),
+    keypoints: signal(null),
+  });
+  return store;
 }
 
 export function head(n_samples: number, more: Partial<MotionHead> = {}): MotionHead {

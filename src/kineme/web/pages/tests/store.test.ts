@@ -1,41 +1,16 @@
-import { signal, type Signal } from "@preact/signals";
+import type { Signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import type { Recording } from "../src/messages";
-import type { RecordingData } from "../src/recordingData";
-import { Store } from "../src/store";
-import { segment, createTable } from "./recordings";
+import type { Store } from "../src/store";
+import { createTable, openStore, recording, segment } from "./recordings";
 
 const activity = segment(0, 40, { level: "activity" });
 const last = segment(40, 50, { cluster: -1, kind: "transition" });
 const primitives = [segment(0, 10), segment(10, 30, { cluster: 1 }), segment(30, 40), last];
 
 function page(): Store {
-  const store = new Store();
-  const segmentation = createTable([
-    activity,
-    { ...last, level: "activity" as const },
-    ...primitives,
-  ]);
-  const recording = signal({
-    ...{ id: "a", name: "take", n_frames: 50, fps: 10, motion: null, segmentation },
-    ...{ matrix: { fps: 10, tile: 256, sizes: [50] }, revision: 0 },
-    ...{
-      can_undo: false,
-      can_redo: false,
-      saved: "",
-      warnings: [],
-      levels: [],
-      video: null,
-      read_options: {},
-    },
-  } satisfies Recording);
-  store.add({
-    data: {} as RecordingData,
-    recording,
-    motion: signal(null),
-    keypoints: signal(null),
-  });
-  return store;
+  const rows = [activity, { ...last, level: "activity" as const }, ...primitives];
+  return openStore(recording(createTable(rows), { n_frames: 50 }));
 }
 
 test("what is looked at is zoomed to where it would hardly be seen", () => {
@@ -105,10 +80,10 @@ test("the view follows the playhead, and all of it is shown again at the end of 
 test("a selection that an edit took away is none", () => {
   const store = page();
   store.select(primitives[1]!);
-  const recording = store.active.value!.recording as Signal<Recording>;
-  const { segmentation } = recording.value;
+  const opened = store.active.value!.recording as Signal<Recording>;
+  const { segmentation } = opened.value;
   const segments = segmentation.segments.filter((each) => each.start_frame !== 10);
-  recording.value = { ...recording.value, segmentation: { ...segmentation, segments } };
+  opened.value = { ...opened.value, segmentation: { ...segmentation, segments } };
   expect(store.selected.value).toBeUndefined();
 });
 

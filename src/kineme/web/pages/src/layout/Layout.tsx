@@ -30,70 +30,41 @@ export function Layout(places: LayoutProps) {
       {places.left && (
         <aside class="place-left" aria-label="Recordings and segmentation">
           {places.left}
-          <Splitter size={SIZES.left} at="right" />
+          <Splitter name="left" title="recordings and segmentation" minimum={150} at="right" />
         </aside>
       )}
       {places.viewer && <main class="place-viewer">{places.viewer}</main>}
       <section class="place-matrix" aria-label="Self-similarity">
         {places.matrix}
-        {places.viewer && <Splitter size={SIZES.matrix} at="left" />}
+        {places.viewer && <Splitter name="matrix" title="matrix" minimum={160} at="left" />}
       </section>
       <aside class="place-side" aria-label="Side panel">
         {places.side}
-        <Splitter size={SIZES.side} at="left" />
+        <Splitter name="side" title="side panel" minimum={220} at="left" />
       </aside>
       <div class="place-transport">{places.transport}</div>
       <section class="place-timeline" aria-label="Timeline">
         {places.timeline}
-        <Splitter size={SIZES.timeline} at="top" />
+        <Splitter name="timeline" title="timeline" minimum={110} at="top" />
       </section>
       {places.curves && (
         <section class="place-curves" aria-label="Curves">
           {places.curves}
-          <Splitter size={SIZES.curves} at="top" />
+          <Splitter name="curves" title="curves" minimum={70} at="top" />
         </section>
       )}
     </div>
   );
 }
 
-/** A panel's size in pixels; null for the default. */
-interface Size {
-  name: string;
-  title: string;
-  minimum: number;
-  pixels: Signal<number | null>;
-}
-
 const STORAGE_KEY = "kineme.sizes";
-const stored = (readStored(STORAGE_KEY) ?? {}) as Record<string, number | null>;
-
-function createSize(name: string, title: string, minimum: number): Size {
-  return { name, title, minimum, pixels: signal(stored[name] ?? null) };
-}
-
-const SIZES = {
-  left: createSize("left", "recordings and segmentation", 150),
-  matrix: createSize("matrix", "matrix", 160),
-  side: createSize("side", "side panel", 220),
-  timeline: createSize("timeline", "timeline", 110),
-  curves: createSize("curves", "curves", 70),
-};
+/** Sizes of panels in pixels; null for the default. */
+const sizes = signal((readStored(STORAGE_KEY) ?? {}) as Record<string, number | null>);
 
 /** Return the changed sizes as CSS variables of the layout. */
 function getSizeStyle(): Record<string, string> {
-  return Object.fromEntries(
-    Object.values(SIZES).flatMap(({ name, pixels }) =>
-      pixels.value === null ? [] : [[`--${name}`, `${pixels.value}px`]],
-    ),
-  );
-}
-
-/** Set a size between the minimum and `most` pixels; null restores the default. */
-function setSize({ name, minimum, pixels }: Size, extent: number | null, most: number): void {
-  pixels.value = extent === null ? null : Math.round(Math.min(Math.max(extent, minimum), most));
-  stored[name] = pixels.value;
-  localStorage.setItem(STORAGE_KEY, JSON.stringify(stored));
+  const changed = Object.entries(sizes.value).filter(([, pixels]) => pixels !== null);
+  return Object.fromEntries(changed.map(([name, pixels]) => [`--${name}`, `${pixels}px`]));
 }
 
 const STEP = 16; // pixels per arrow key
@@ -103,14 +74,24 @@ const STEP = 16; // pixels per arrow key
  *
  * @param at side of the panel
  */
-function Splitter({ size, at }: { size: Size; at: "left" | "right" | "top" }) {
+function Splitter(props: {
+  name: string;
+  title: string;
+  minimum: number;
+  at: "left" | "right" | "top";
+}) {
+  const { name, title, minimum, at } = props;
   const isVertical = at !== "top";
   const sign = at === "right" ? 1 : -1;
   const getExtent = (edge: HTMLElement): number =>
     isVertical ? edge.parentElement!.clientWidth : edge.parentElement!.clientHeight;
   const getPlace = (event: PointerEvent): number => (isVertical ? event.clientX : event.clientY);
-  const resize = (extent: number | null): void =>
-    setSize(size, extent, 0.6 * (isVertical ? innerWidth : innerHeight));
+  const resize = (extent: number | null): void => {
+    const most = 0.6 * (isVertical ? innerWidth : innerHeight);
+    const pixels = extent === null ? null : Math.round(Math.min(Math.max(extent, minimum), most));
+    sizes.value = { ...sizes.value, [name]: pixels };
+    localStorage.setItem(STORAGE_KEY, JSON.stringify(sizes.value));
+  };
   const onPointerDown = (event: TargetedEvent<HTMLDivElement, PointerEvent>): void => {
     const edge = event.currentTarget;
     const from = getPlace(event);
@@ -134,9 +115,9 @@ function Splitter({ size, at }: { size: Size; at: "left" | "right" | "top" }) {
       role="separator"
       tabIndex={0}
       aria-orientation={isVertical ? "vertical" : "horizontal"}
-      aria-label={`Size of ${size.title}`}
-      aria-valuenow={size.pixels.value ?? 0}
-      aria-valuemin={size.minimum}
+      aria-label={`Size of ${title}`}
+      aria-valuenow={sizes.value[name] ?? 0}
+      aria-valuemin={minimum}
       title="Drag, or arrow keys; a double click gives the usual size back"
       onPointerDown={onPointerDown}
       onKeyDown={onKeyDown}

@@ -8,6 +8,7 @@ import type {
   TargetedKeyboardEvent,
 } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
+import { NO_COLOR } from "../colors";
 import { theme, toggleTheme } from "../drawing";
 import { findDetailIndex, useStore } from "../store";
 
@@ -26,6 +27,19 @@ export function Button(props: ComponentProps<"button"> & { busy?: boolean }) {
 export function Toggle({ on, ...rest }: ComponentProps<"button"> & { on: Signal<boolean> }) {
   const onClick = (): void => void (on.value = !on.value);
   return <Button aria-pressed={on.value} onClick={onClick} {...rest} />;
+}
+
+/** Render a form that the page submits by itself. */
+export function Form({ onSubmit, ...rest }: ComponentProps<"form"> & { onSubmit: () => void }) {
+  return (
+    <form
+      {...rest}
+      onSubmit={(event) => {
+        event.preventDefault();
+        onSubmit();
+      }}
+    />
+  );
 }
 
 /** Render a titled field. */
@@ -48,9 +62,9 @@ export function CloseButton(props: { label: string; title?: string; onClick: () 
   );
 }
 
-/** Render a small square in the colour of a cluster or label. */
-export function Swatch({ color }: { color: string }) {
-  return <span class="swatch" style={{ background: color }} />;
+/** Render a small square in the colour of a cluster or label, if it has one. */
+export function Swatch({ color }: { color: string | null | undefined }) {
+  return <span class="swatch" style={{ background: color ?? NO_COLOR }} />;
 }
 
 type TextInputProps = Omit<ComponentProps<"input">, "value"> & { value: Signal<string> };
@@ -174,6 +188,18 @@ export function useBusy(): [string, (name: string, work: () => Promise<unknown>)
   return [busy.value, run];
 }
 
+/** Render a button of one of several works, named `busy` while it is done. */
+export function WorkButton(
+  props: ComponentProps<"button"> & { name: string; busy: string; work: () => Promise<void> },
+) {
+  const { name, busy, work, ...rest } = props;
+  return (
+    <Button disabled={busy !== ""} busy={busy === name} onClick={() => void work()} {...rest}>
+      {name}
+    </Button>
+  );
+}
+
 /** Return the set with a value added, or removed if it is a member. */
 export function toggleMember<Value>(chosen: ReadonlySet<Value>, value: Value): ReadonlySet<Value> {
   const next = new Set(chosen);
@@ -290,8 +316,10 @@ const PATHS = {
   theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 1 1 0 12v-1.4a4.6 4.6 0 1 0 0-9.2z",
 } as const;
 
+export type Icon = keyof typeof PATHS;
+
 interface IconButtonProps {
-  icon: keyof typeof PATHS;
+  icon: Icon;
   /** Accessible name and tooltip. */
   label: string;
   keys?: string;

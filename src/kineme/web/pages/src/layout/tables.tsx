@@ -9,7 +9,7 @@ const OVERSCAN = 6; // rows rendered above and below the visible ones
 /** A column's title, or title and tooltip. */
 type Column = string | readonly [title: string, tooltip: string];
 
-interface Row extends HTMLAttributes<HTMLTableRowElement> {
+export interface Row extends HTMLAttributes<HTMLTableRowElement> {
   key: string | number;
   /** Heading of the row, in its first cell. */
   head?: ComponentChildren;
@@ -28,7 +28,20 @@ export function Table({ class: name, caption, columns, rows }: TableProps) {
   return (
     <table class={name}>
       {caption && <caption>{caption}</caption>}
-      {columns && <TableHead columns={columns} />}
+      {columns && (
+        <thead>
+          <tr>
+            {columns.map((column) => {
+              const [title, tooltip] = typeof column === "string" ? [column] : column;
+              return (
+                <th key={title} scope={title ? "col" : undefined} title={tooltip}>
+                  {title}
+                </th>
+              );
+            })}
+          </tr>
+        </thead>
+      )}
       <tbody>
         {rows.map(({ key, head, cells, ...rest }) => (
           <tr key={key} {...rest}>
@@ -40,23 +53,6 @@ export function Table({ class: name, caption, columns, rows }: TableProps) {
         ))}
       </tbody>
     </table>
-  );
-}
-
-export function TableHead({ columns }: { columns: readonly Column[] }) {
-  return (
-    <thead>
-      <tr>
-        {columns.map((column) => {
-          const [title, tooltip] = typeof column === "string" ? [column] : column;
-          return (
-            <th key={title} {...(title && { scope: "col" })} {...(tooltip && { title: tooltip })}>
-              {title}
-            </th>
-          );
-        })}
-      </tr>
-    </thead>
   );
 }
 

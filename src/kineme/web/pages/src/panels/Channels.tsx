@@ -1,15 +1,13 @@
 /** Show curves over time, below the timeline or in place of the 3-D view. */
 import { signal, useComputed, useSignal, type ReadonlySignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
-import { Canvas, PlayheadLine, useThrottled } from "../drawing";
+import { Canvas, useThrottled } from "../drawing";
 import { Checkbox, TextInput } from "../layout/controls";
 import type { Curve, CurveList, MotionHead } from "../messages";
 import { useStore } from "../store";
 import { readStored } from "../util";
-import { toPixel } from "../view";
 import { CurveTiles, drawChannels, type Row } from "./channelDrawing";
-import { GUTTER_WIDTH } from "./lanes";
-import { TimelineGestures } from "./Timeline";
+import { Playhead, TimelineGestures } from "./Timeline";
 
 const STORAGE_KEY = "kineme.curves";
 const MAX_DEFAULT_CHANNELS = 8;
@@ -50,9 +48,7 @@ export function Channels({ ruler = false }: { ruler?: boolean }) {
             }}
             gestures={gestures}
           />
-          <div class="playhead-room" style={{ left: `${GUTTER_WIDTH}px` }}>
-            <PlayheadLine share={toPixel(store.range.value, 1, store.playhead.value)} />
-          </div>
+          <Playhead />
         </>
       ) : (
         <p class="empty quiet">Choose what to draw: “Curves…”.</p>

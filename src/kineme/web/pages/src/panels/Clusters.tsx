@@ -3,12 +3,12 @@ import { Curves } from "./Curves";
 import { useSignal } from "@preact/signals";
 import { useStore, type Store } from "../store";
 import { countLabels, type Cluster } from "../segments";
-import { NO_COLOR, getClusterColor } from "../colors";
+import { getClusterColor, NO_COLOR } from "../colors";
 import type { Segment } from "../messages";
 import { formatTime } from "../view";
 import { Button, NameInput, Swatch } from "../layout/controls";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { TableHead } from "../layout/tables";
+import { Table, type Row } from "../layout/tables";
 
 export function Clusters() {
   return (
@@ -105,70 +105,19 @@ function ClusterList() {
   const store = useStore();
   const clusters = store.clusters.value;
   if (clusters.length === 0) return <LabelList />;
-  const most = Math.max(...clusters.map((cluster) => cluster.members.length));
-  return (
-    <table class="clusters">
-      <Head first="Cluster" />
-      <tbody onPointerLeave={() => (store.hovered.value = null)}>
-        {clusters.map((cluster) => (
-          <ClusterRow key={cluster.id} cluster={cluster} most={most} />
-        ))}
-      </tbody>
-    </table>
-  );
-}
-
-function Head({ first }: { first: string }) {
-  return (
-    <TableHead
-      columns={[
-        first,
-        "Count",
-        ["Mean", "Mean duration of one, seconds"],
-        ["Total", "All of them together"],
-      ]}
-    />
-  );
-}
-
-function ClusterRow({ cluster, most }: { cluster: Cluster; most: number }) {
-  const store = useStore();
-  const { id, members, mean_s, total_s } = cluster;
-  const shown = store.cluster.value === id;
-  return (
-    <tr
-      class={shown ? "shown" : ""}
-      onPointerEnter={() => (store.hovered.value = id)}
-      onClick={() => store.selectCluster(id)}
-    >
-      <th scope="row">
-        <ClusterName cluster={cluster} />
-      </th>
-      <CountCells
-        color={getClusterColor(id)}
-        {...{ count: members.length, most, mean_s, total_s }}
-      />
-    </tr>
-  );
-}
-
-interface CountProps extends Pick<Cluster, "mean_s" | "total_s"> {
-  color: string;
-  count: number;
-  most: number;
-}
-
-function CountCells({ color, count, most, mean_s, total_s }: CountProps) {
-  return (
-    <>
-      <td class="number count">
-        <span class="bar" style={{ width: `${(40 * count) / most}px`, background: color }} />
-        {count}
-      </td>
-      <td class="number">{mean_s.toFixed(2)} s</td>
-      <td class="number">{formatTime(total_s, total_s < 60 ? 1 : 0)}</td>
-    </>
-  );
+  const rows = clusters.map((cluster) => {
+    const { id, members, mean_s, total_s } = cluster;
+    return {
+      ...{ id, count: members.length, mean_s, total_s },
+      color: getClusterColor(id),
+      head: <ClusterName cluster={cluster} />,
+      class: store.cluster.value === id ? "shown" : "",
+      onPointerEnter: () => void (store.hovered.value = id),
+      onPointerLeave: () => void (store.hovered.value = null),
+      onClick: () => store.selectCluster(id),
+    };
+  });
+  return <CountTable first="Cluster" rows={rows} />;
 }
 
 /** List the labels of a table without clusters. */
@@ -179,33 +128,57 @@ function LabelList() {
   const labels = countLabels(lane.value);
   if (!labels.length)
     return <p class="empty quiet">Nothing repeats itself here: there are no clusters.</p>;
-  const most = Math.max(...labels.map(({ count }) => count));
   const selectNext = (label: string): void => {
     const next = (each: Segment): boolean => each.label === label;
     const later = lane.value.find((each) => next(each) && each.start_frame > store.frame.value);
     const target = later ?? lane.value.find(next);
     if (target) store.select(target);
   };
+  const rows = labels.map(({ label, count, total_s }) => {
+    const color = store.labelColors.value.get(label) ?? NO_COLOR;
+    const head = (
+      <Button class="plain" title="Go to the next one">
+        <Swatch color={color} />
+        <span class="cluster-name">{label}</span>
+      </Button>
+    );
+    const mean_s = total_s / count;
+    return { id: label, color, head, count, mean_s, total_s, onClick: () => selectNext(label) };
+  });
+  return <CountTable first="Label" rows={rows} />;
+}
+
+interface CountRow extends Pick<Cluster, "mean_s" | "total_s">, Pick<Row, "head" | "onClick"> {
+  id: string | number;
+  color: string;
+  count: number;
+}
+
+/** Show how often each cluster or label occurs, and how long. */
+function CountTable({ first, rows }: { first: string; rows: readonly CountRow[] }) {
+  const most = Math.max(...rows.map(({ count }) => count));
   return (
-    <table class="clusters">
-      <Head first="Label" />
-      <tbody>
-        {labels.map(({ label, count, total_s }) => {
-          const color = store.labelColors.value.get(label) ?? NO_COLOR;
-          return (
-            <tr key={label} onClick={() => selectNext(label)}>
-              <th scope="row">
-                <Button class="plain" title="Go to the next one">
-                  <Swatch color={color} />
-                  <span class="cluster-name">{label}</span>
-                </Button>
-              </th>
-              <CountCells {...{ color, count, most, mean_s: total_s / count, total_s }} />
-            </tr>
-          );
-        })}
-      </tbody>
-    </table>
+    <Table
+      class="clusters number"
+      columns={[
+        first,
+        "Count",
+        ["Mean", "Mean duration of one, seconds"],
+        ["Total", "All of them together"],
+      ]}
+      rows={rows.map(({ id, color, count, mean_s, total_s, ...row }) => ({
+        ...row,
+        key: id,
+        cells: [
+          <span class="count">
+            <span class="bar" style={{ width: `${(40 * count) / most}px`, background: color }} />
+            {count}
+          </span>,
+          `${mean_s.toFixed(2)} s`,
+          formatTime(total_s, total_s < 60 ? 1 : 0),
+        ],
+      }))}
+    />
   );
 }
 

@@ -9,14 +9,15 @@ import { MARGIN_LEFT, MARGIN_RIGHT, drawCurves, findNearestCurve } from "./curve
 import { Button, Select, Swatch } from "../layout/controls";
 import type { OpenRecording, RecordingData } from "../recordingData";
 
-const DASHED = " (dashed)";
-
 export function Curves() {
   const store = useStore();
   const chosen = useSignal("");
   const besideId = useSignal("");
+  const others = useComputed(() =>
+    store.opened.value.filter((each) => each !== store.active.value),
+  );
   const beside = useComputed(() =>
-    getOtherRecordings(store).find((each) => getId(each) === besideId.value),
+    others.value.find(({ recording }) => recording.value.id === besideId.value),
   );
   const measured = useClusterCurves(chosen, beside);
   const cycles = useComputed(() => measured.value?.curves?.cycles ?? []);
@@ -32,9 +33,8 @@ export function Curves() {
     );
   const { channels, curves, opposite } = now;
   const color = getClusterColor(getShownCluster(store));
-  const ranges = summarizeRanges(
-    curves.cycles.filter(({ counts }, i) => counts && !leftOut.value.has(i)),
-  );
+  const counted = curves.cycles.filter(({ counts }, i) => counts && !leftOut.value.has(i));
+  const ranges = summarizeRanges(counted);
   return (
     <div class="curves">
       <div class="curve-choice">
@@ -46,11 +46,22 @@ export function Curves() {
         />
         <span class="quiet">{curves.unit}</span>
       </div>
-      <ComparisonSelect
-        others={getOtherRecordings(store)}
-        id={beside.value ? besideId.value : ""}
-        onChoose={(id) => (besideId.value = id)}
-      />
+      {others.value.length > 0 && (
+        <div class="curve-choice">
+          <span class="quiet">Beside</span>
+          <Select
+            label="Beside"
+            value={beside.value ? besideId.value : ""}
+            options={[
+              ["", "no other recording"],
+              ...others.value.map(
+                ({ recording }) => [recording.value.id, recording.value.name] as const,
+              ),
+            ]}
+            onSelect={(id) => (besideId.value = id)}
+          />
+        </div>
+      )}
       <div class="curve-room">
         <Canvas
           label={`Curves of ${formatCount(curves.total, "repetition")}, with mean and deviation. Click one to go to it.`}
@@ -70,14 +81,28 @@ export function Curves() {
         />
         <CyclePlayhead cycles={curves.cycles} />
       </div>
-      <CurrentCycle curves={curves} at={selected.value} leftOut={leftOut.value} />
-      <FarthestCycles curves={curves} leftOut={leftOut.value} />
-      <ExcludedCycles curves={curves} leftOut={leftOut.value} />
+      <CurrentCycle
+        cycle={curves.cycles[selected.value]}
+        unit={curves.unit}
+        isOut={leftOut.value.has(selected.value)}
+      />
+      <CycleList
+        title="Farthest"
+        label="Farthest from the mean"
+        cycles={curves.n < 3 ? [] : counted.slice(0, MAX_FARTHEST)}
+        unit={curves.unit}
+      />
+      <CycleList
+        title="Left out"
+        label="Left out by hand"
+        cycles={curves.cycles.filter((_, i) => leftOut.value.has(i))}
+        isOut
+      />
       <p class="quiet note">
         {describeRepetitions(curves)}
         {ranges && `; range ${appendUnit(ranges, curves.unit)}`}
         {beside.value && describeComparison(store, beside.value, curves)}
-        {opposite && `; ${opposite.channel}${DASHED}`}
+        {opposite && `; ${opposite.channel} (dashed)`}
         {curves.turned > 0 &&
           `; ${formatCount(curves.turned, "activity", "activities")} turned to the phase of the others`}
       </p>
@@ -154,65 +179,21 @@ function describeComparison(
   return `; ${name} has no “${label}”, or no ${channel}`;
 }
 
-/** Return the open recordings except the active one. */
-function getOtherRecordings(store: Store): readonly OpenRecording[] {
-  return store.opened.value.filter((each) => each !== store.active.value);
-}
-
-function getId({ recording }: OpenRecording): string {
-  return recording.value.id;
-}
-
-/** Select another open recording whose mean curve is drawn for comparison; `id` is empty for none. */
-function ComparisonSelect(props: {
-  others: readonly OpenRecording[];
-  id: string;
-  onChoose: (id: string) => void;
-}) {
-  const { others, id, onChoose } = props;
-  if (!others.length) return null;
-  return (
-    <div class="curve-choice">
-      <span class="quiet">Beside</span>
-      <Select
-        label="Beside"
-        value={id}
-        options={[
-          ["", "no other recording"],
-          ...others.map((each) => [getId(each), each.recording.value.name] as const),
-        ]}
-        onSelect={onChoose}
-      />
-    </div>
-  );
-}
-
 const MAX_FARTHEST = 3;
 
-interface OutlierProps {
-  curves: ClusterCurves;
-  /** Indices of the excluded repetitions. */
-  leftOut: ReadonlySet<number>;
-}
-
 /** Show the repetition at the playhead and its distance from the mean. */
-function CurrentCycle({ curves, leftOut, at }: OutlierProps & { at: number }) {
+function CurrentCycle(props: { cycle: CycleCurve | undefined; unit: string; isOut: boolean }) {
+  const { cycle, unit, isOut } = props;
   const store = useStore();
-  const cycle = curves.cycles[at];
   if (!cycle) return <p class="chosen quiet">None of them at the playhead.</p>;
-  const isOut = leftOut.has(at);
   const range = computeRange(cycle);
   const key = store.selected.value?.start_frame === cycle.start_frame ? " (X)" : "";
   const edit = store.edit.value;
   return (
     <p class="chosen" aria-label="At the playhead">
       <span class="number">{cycle.start_s.toFixed(2)} s</span>
-      {range !== null && (
-        <span class="quiet">range {appendUnit(formatNumber(range), curves.unit)}</span>
-      )}
-      <span class="quiet">
-        {isOut ? "left out by hand" : describeDeviation(cycle, curves.unit)}
-      </span>
+      {range !== null && <span class="quiet">range {appendUnit(formatNumber(range), unit)}</span>}
+      <span class="quiet">{isOut ? "left out by hand" : describeDeviation(cycle, unit)}</span>
       <span class="spacer" />
       {edit && (
         <Button
@@ -226,75 +207,50 @@ function CurrentCycle({ curves, leftOut, at }: OutlierProps & { at: number }) {
   );
 }
 
-/** List the repetitions farthest from the mean, with buttons to exclude them. */
-function FarthestCycles({ curves, leftOut }: OutlierProps) {
-  const { cycles, unit, n } = curves;
-  if (n < 3) return null;
-  const inMean = cycles.filter(({ counts }, i) => counts && !leftOut.has(i));
-  return (
-    <p class="farthest" aria-label="Farthest from the mean">
-      <span class="quiet">Farthest:</span>
-      {inMean.slice(0, MAX_FARTHEST).map((cycle) => (
-        <CycleChip
-          key={cycle.start_frame}
-          cycle={cycle}
-          deviation={describeDeviation(cycle, unit)}
-          excluded={true}
-        />
-      ))}
-    </p>
-  );
-}
-
-/** List the excluded repetitions, with buttons to include them again. */
-function ExcludedCycles({ curves, leftOut }: OutlierProps) {
-  if (!leftOut.size) return null;
-  return (
-    <p class="farthest left-out" aria-label="Left out by hand">
-      <span class="quiet">Left out:</span>
-      {curves.cycles.map(
-        (cycle, i) =>
-          leftOut.has(i) && (
-            <CycleChip
-              key={cycle.start_frame}
-              cycle={cycle}
-              deviation="left out by hand"
-              excluded={false}
-            />
-          ),
-      )}
-    </p>
-  );
-}
-
-/** @param excluded the state that a click on the second button sets */
-function CycleChip(props: { cycle: CycleCurve; deviation: string; excluded: boolean }) {
-  const { cycle, deviation, excluded } = props;
+/** List repetitions, with buttons to exclude them or, if they are, to include them again. */
+function CycleList(props: {
+  title: string;
+  label: string;
+  cycles: readonly CycleCurve[];
+  unit?: string;
+  isOut?: boolean;
+}) {
+  const { title, label, cycles, unit = "", isOut = false } = props;
   const store = useStore();
   const edit = store.edit.value;
-  const at = `${cycle.start_s.toFixed(1)} s`;
-  const what = excluded ? "Leave out of the mean" : "Bring back into the mean";
+  const what = isOut ? "Bring back into the mean" : "Leave out of the mean";
+  if (!cycles.length) return null;
   return (
-    <span class="chip">
-      <Button
-        title={`${deviation}, from ${cycle.start_s.toFixed(2)} to ${cycle.stop_s.toFixed(2)} s`}
-        onClick={() => selectCycle(store, cycle)}
-      >
-        {at}
-      </Button>
-      {edit && (
-        <Button
-          title={what}
-          aria-label={`${what}: ${at}`}
-          onClick={({ detail }) => {
-            // Ignore double clicks: the next chip moves under the pointer.
-            if (detail < 2) edit({ kind: "exclude", frames: [cycle.start_frame], excluded });
-          }}
-        >
-          {excluded ? "×" : "↺"}
-        </Button>
-      )}
-    </span>
+    <p class={isOut ? "farthest left-out" : "farthest"} aria-label={label}>
+      <span class="quiet">{title}:</span>
+      {cycles.map((cycle) => {
+        const { start_frame, start_s, stop_s } = cycle;
+        const deviation = isOut ? "left out by hand" : describeDeviation(cycle, unit);
+        return (
+          <span class="chip" key={start_frame}>
+            <Button
+              title={`${deviation}, from ${start_s.toFixed(2)} to ${stop_s.toFixed(2)} s`}
+              onClick={() => selectCycle(store, cycle)}
+            >
+              {start_s.toFixed(1)} s
+            </Button>
+            {edit && (
+              <Button
+                title={what}
+                aria-label={`${what}: ${start_s.toFixed(1)} s`}
+                onClick={({ detail }) => {
+                  // Ignore double clicks: the next chip moves under the pointer.
+                  if (detail < 2)
+                    edit({ kind: "exclude", frames: [start_frame], excluded: !isOut });
+                }}
+              >
+                {isOut ? "↺" : "×"}
+              </Button>
+            )}
+          </span>
+        );
+      })}
+    </p>
   );
 }
 

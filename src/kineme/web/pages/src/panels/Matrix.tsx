@@ -5,18 +5,18 @@ import {
   CLICK_TOLERANCE,
   Canvas,
   PlayheadLine,
-  TouchTracker,
+  moveFinger,
   getPosition,
   getZoomFactor,
   theme,
   type Point,
+  type Touches,
 } from "../drawing";
 import { formatTime, panRange, toPixel, toSeconds, zoomRange, type Span } from "../view";
 import { EDGE, MatrixTiles, chooseRows, drawMatrix } from "./matrixDrawing";
-import { NO_COLOR } from "../colors";
 import { findSegmentAt, getDuration, getSegmentName } from "../segments";
 import { IconButton, Swatch } from "../layout/controls";
-import { getConfidence } from "../confidence";
+import { Confidence } from "../confidence";
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 
 function Matrix() {
@@ -34,13 +34,8 @@ function Matrix() {
           label="Self-similarity: how similar any two frames are. Click to go there; use the wheel or two fingers to zoom, drag to pan."
           watch={() => {
             void [store.activities.value, store.primitives.value, store.selected.value];
-            void [
-              store.labelColors.value,
-              rows.value,
-              store.range.value,
-              store.hovered.value,
-              tiles.loadCount.value,
-            ];
+            void [store.labelColors.value, store.range.value, store.hovered.value];
+            void [rows.value, tiles.loadCount.value];
           }}
           draw={(pen, width) => {
             // While the recording changes, its head and the tiles may belong to different
@@ -94,7 +89,7 @@ function CurrentSegment() {
   const segment = store.present.value;
   if (!segment) return null;
   const table = store.recording.value?.segmentation;
-  const confidence = table && getConfidence(table, segment);
+  const confidence = table && new Confidence(table, segment);
   const cluster = store.clusters.value.find((each) => each.id === segment.cluster);
   const members = cluster?.members ?? [];
   const at = members.indexOf(segment);
@@ -105,7 +100,7 @@ function CurrentSegment() {
   return (
     <section class="present" aria-label="At the playhead">
       <p class="present-name">
-        <Swatch color={store.getColor(segment) ?? NO_COLOR} />
+        <Swatch color={store.getColor(segment)} />
         <b>{getSegmentName(segment)}</b>
         <span class="spacer" />
         {at >= 0 && (
@@ -134,7 +129,7 @@ class MatrixGestures {
   /** Time span from top to bottom; the timeline's range is shown from left to right. */
   readonly rows: ReadonlySignal<Span>;
   private readonly movedRows = signal<Span | null>(null);
-  private readonly touches = new TouchTracker();
+  private readonly touches: Touches = new Map();
   private pressed: { place: Point; last: Point; far: boolean } | null = null;
 
   constructor(private readonly store: Store) {
@@ -144,15 +139,15 @@ class MatrixGestures {
   down(event: PointerEvent): void {
     const place = getPosition(event);
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
-    this.touches.press(event.pointerId, place);
-    this.pressed = this.touches.count > 1 ? null : { place, last: place, far: false };
+    this.touches.set(event.pointerId, place);
+    this.pressed = this.touches.size > 1 ? null : { place, last: place, far: false };
   }
 
   move(event: PointerEvent): void {
     const place = getPosition(event);
     const side = getSide(event);
     this.pointer.value = this.getTimesAt(place, side);
-    const pinch = this.touches.move(event.pointerId, place);
+    const pinch = moveFinger(this.touches, event.pointerId, place);
     if (pinch) {
       this.zoom(pinch.factor, this.getTimesAt(pinch.from, side));
       this.pan(pinch.from, pinch.to, side);
@@ -169,7 +164,7 @@ class MatrixGestures {
   up(event: PointerEvent): void {
     const clicked = this.pressed && !this.pressed.far;
     this.pressed = null;
-    this.touches.lift(event.pointerId);
+    this.touches.delete(event.pointerId);
     if (!clicked) return;
     const { x } = this.getTimesAt(getPosition(event), getSide(event));
     const segment = findSegmentAt(this.store.primitives.value, this.store.getFrameAt(x));

@@ -3,7 +3,6 @@ import { useSignal, useSignalEffect, type ReadonlySignal } from "@preact/signals
 import { formatCount } from "../util";
 import type { Recording } from "../messages";
 import { useStore } from "../store";
-import { NO_COLOR } from "../colors";
 import { getDuration, getSegmentName, listRepetitions } from "../segments";
 import { isPrinting } from "../drawing";
 import { formatTime } from "../view";
@@ -39,7 +38,7 @@ export function Repetitions(props: { recording: ReadonlySignal<Recording | undef
         key: activity.start_frame,
         head: (
           <Button class="plain" onClick={() => store.select(activity)}>
-            <Swatch color={store.getColor(activity) ?? NO_COLOR} />
+            <Swatch color={store.getColor(activity)} />
             {getSegmentName(activity)}
           </Button>
         ),

@@ -1,14 +1,16 @@
 /** Show the lanes: activities, primitives, labels, and other results below them. */
+import type { TargetedPointerEvent } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { useStore, type Drag, type Store } from "../store";
 import {
   CLICK_TOLERANCE,
   Canvas,
   PlayheadLine,
-  TouchTracker,
   getPosition,
   getZoomFactor,
+  moveFinger,
   type Pinch,
+  type Touches,
 } from "../drawing";
 import { listen } from "../util";
 import { formatPerson } from "../recordingData";
@@ -28,15 +30,7 @@ import {
 export function Timeline() {
   const store = useStore();
   const lanes = useRef<Lane[]>([]);
-  const gestures = useMemo(
-    () =>
-      new TimelineGestures(
-        store,
-        () => lanes.current,
-        (next) => void (store.drag.value = next),
-      ),
-    [store],
-  );
+  const gestures = useMemo(() => new TimelineGestures(store, () => lanes.current), [store]);
   useEffect(() => {
     const onKey = (event: KeyboardEvent): void => {
       if (event.key === "Escape" && gestures.cancelDrag()) event.stopPropagation();
@@ -70,7 +64,7 @@ export function Timeline() {
           }}
           gestures={gestures}
         />
-        <Playhead />
+        <Playhead handle />
       </div>
       <Overview />
       <SelectionStatus />
@@ -79,12 +73,12 @@ export function Timeline() {
 }
 
 /** Show the playhead. It is no part of the canvas, so playing redraws no lanes. */
-function Playhead() {
+export function Playhead({ handle = false }: { handle?: boolean }) {
   const store = useStore();
   const share = toPixel(store.range.value, 1, store.playhead.value);
   return (
     <div class="playhead-room" style={{ left: `${GUTTER_WIDTH}px` }}>
-      <PlayheadLine share={share} handle />
+      <PlayheadLine share={share} handle={handle} />
     </div>
   );
 }
@@ -104,9 +98,9 @@ function SelectionStatus() {
 /** Show the whole recording and the visible range; drag to move the range or to seek. */
 function Overview() {
   const store = useStore();
-  const dragging = useRef(false);
-  const moveTo = (event: PointerEvent): void => {
-    const { left, width } = (event.currentTarget as Element).getBoundingClientRect();
+  const moveTo = (event: TargetedPointerEvent<HTMLCanvasElement>): void => {
+    if (!event.currentTarget.hasPointerCapture(event.pointerId)) return;
+    const { left, width } = event.currentTarget.getBoundingClientRect();
     const { start_s, stop_s } = store.range.value;
     const at = ((event.clientX - left) / width) * store.duration.value;
     if (store.zoom.value) store.panBy(at - (start_s + stop_s) / 2);
@@ -123,12 +117,9 @@ function Overview() {
         draw={(pen, width, height) => drawOverview(pen, width, height, store)}
         onPointerDown={(event) => {
           event.currentTarget.setPointerCapture(event.pointerId);
-          dragging.current = true;
           moveTo(event);
         }}
-        onPointerMove={(event) => dragging.current && moveTo(event)}
-        onPointerUp={() => (dragging.current = false)}
-        onPointerCancel={() => (dragging.current = false)}
+        onPointerMove={moveTo}
       />
     </div>
   );
@@ -152,6 +143,7 @@ interface BorderGrip {
   drag: Drag;
 }
 
+/** What the pressed pointers do. */
 type Gesture =
   | { what: "scrub" }
   | { what: "press"; spot: Spot; border: BorderGrip | null }
@@ -161,21 +153,20 @@ type Gesture =
 
 export class TimelineGestures {
   private gesture: Gesture | null = null;
-  private readonly touches = new TouchTracker();
+  private readonly touches: Touches = new Map();
 
   constructor(
     private readonly store: Store,
     private readonly lanes: () => readonly Lane[] = () => [],
-    private readonly onDrag: (drag: Drag | null) => void = () => undefined,
   ) {}
 
   down(event: PointerEvent): void {
     if (event.button !== 0) return;
     const spot = getSpot(event);
     (event.currentTarget as Element).setPointerCapture(event.pointerId);
-    this.touches.press(event.pointerId, spot);
-    if (this.touches.count > 1) {
-      this.onDrag(null);
+    this.touches.set(event.pointerId, spot);
+    if (this.touches.size > 1) {
+      this.store.drag.value = null;
       this.gesture = { what: "pinch" };
       return;
     }
@@ -187,45 +178,42 @@ export class TimelineGestures {
 
   move(event: PointerEvent): void {
     const spot = getSpot(event);
-    const pinch = this.touches.move(event.pointerId, spot);
+    const pinch = moveFinger(this.touches, event.pointerId, spot);
     if (pinch) this.applyPinch(pinch, spot);
-    if (
-      this.gesture?.what === "press" &&
-      Math.abs(spot.x - this.gesture.spot.x) > CLICK_TOLERANCE
-    ) {
-      const { border } = this.gesture;
-      const { x } = this.gesture.spot;
+    const pressed = this.gesture;
+    if (pressed?.what === "press" && Math.abs(spot.x - pressed.spot.x) > CLICK_TOLERANCE) {
+      const { border } = pressed;
+      const { x } = pressed.spot;
       this.gesture = border ? { what: "border", x, ...border } : { what: "pan", last: x };
     }
     const { gesture } = this;
     if (gesture?.what === "scrub") this.store.seek(this.getSecondsAt(spot));
     else if (gesture?.what === "pan") {
-      this.store.panBy(this.getSecondsAt({ ...spot, x: gesture.last }) - this.getSecondsAt(spot));
+      this.store.panBy(this.getSecondsPerPixel(spot) * (gesture.last - spot.x));
       gesture.last = spot.x;
     } else if (gesture?.what === "border") {
-      const { start_s, stop_s } = this.store.range.value;
-      const perPixel = ((stop_s - start_s) / (spot.width - GUTTER_WIDTH)) * this.store.fps.value;
+      const perPixel = this.getSecondsPerPixel(spot) * this.store.fps.value;
       const least = Math.max(Math.ceil(perPixel * MIN_SEGMENT_WIDTH), 1);
       const { frame } = gesture.drag;
       const [low, high] = getBorderLimits(gesture.lane.segments, frame, least);
       const to = Math.round(frame + perPixel * (spot.x - gesture.x));
       gesture.drag = { ...gesture.drag, to: Math.min(Math.max(to, low), high) };
-      this.onDrag(gesture.drag);
+      this.store.drag.value = gesture.drag;
       this.store.seek(gesture.drag.to / this.store.fps.value);
     } else if (!gesture) this.updateHover(event, spot);
   }
 
   up(event: PointerEvent): void {
     const { gesture } = this;
-    this.touches.lift(event.pointerId);
-    if (gesture?.what === "pinch" && this.touches.count) return;
+    this.touches.delete(event.pointerId);
+    if (gesture?.what === "pinch" && this.touches.size) return;
     this.gesture = null;
     if (gesture?.what === "press") this.handleClick(gesture.spot);
     if (gesture?.what !== "border") return;
     const { frame, to } = gesture.drag;
     const { level } = gesture.lane;
     if (level && to !== frame) this.store.edit.value?.({ kind: "move_border", level, frame, to });
-    else this.onDrag(null);
+    else this.store.drag.value = null;
   }
 
   /** Cancel the drag of a border; return whether one was dragged. */
@@ -240,7 +228,7 @@ export class TimelineGestures {
   cancel(): void {
     this.touches.clear();
     this.gesture = null;
-    this.onDrag(null);
+    this.store.drag.value = null;
   }
 
   leave(): void {
@@ -249,10 +237,9 @@ export class TimelineGestures {
 
   wheel(event: WheelEvent): void {
     const spot = getSpot(event);
-    const { start_s, stop_s } = this.store.range.value;
     const sideways = event.shiftKey ? event.deltaY : event.deltaX;
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
-      this.store.panBy((sideways / (spot.width - GUTTER_WIDTH)) * (stop_s - start_s));
+      this.store.panBy(sideways * this.getSecondsPerPixel(spot));
     else this.store.zoomBy(getZoomFactor(event), this.getSecondsAt(spot));
   }
 
@@ -265,13 +252,12 @@ export class TimelineGestures {
 
   private handleClick(spot: Spot): void {
     const segment = this.findSegment(spot);
-    const person = findLane(this.lanes(), spot.y)?.person ?? null;
+    const { person = null, level = null } = findLane(this.lanes(), spot.y) ?? {};
     if (person !== null) this.store.show(person);
-    if (person !== null && segment) this.store.select(segment);
-    else if (person !== null && spot.x < GUTTER_WIDTH)
-      return; // a click on the name only activates the person
-    else if (segment && findLane(this.lanes(), spot.y)?.level) this.store.select(segment);
-    else this.store.seek(segment?.start_s ?? this.getSecondsAt(spot));
+    if (segment && (level || person !== null)) this.store.select(segment);
+    // A click on the name only activates the person.
+    else if (person === null || spot.x >= GUTTER_WIDTH)
+      this.store.seek(segment?.start_s ?? this.getSecondsAt(spot));
   }
 
   private updateHover(event: PointerEvent, spot: Spot): void {
@@ -295,14 +281,18 @@ export class TimelineGestures {
   private findBorder(spot: Spot): BorderGrip | null {
     const lane = findLane(this.lanes(), spot.y);
     if (!this.store.edit.value || !lane?.level || spot.x < GUTTER_WIDTH) return null;
-    const { start_s, stop_s } = this.store.range.value;
-    const reach = (spot.reach / (spot.width - GUTTER_WIDTH)) * (stop_s - start_s);
+    const reach = spot.reach * this.getSecondsPerPixel(spot);
     const frame = findBorder(lane.segments, this.getSecondsAt(spot), reach, this.store.fps.value);
     return frame === null ? null : { lane, drag: { lane: lane.id, frame, to: frame } };
   }
 
   private getSecondsAt({ x, width }: Spot): number {
     return toSeconds(this.store.range.value, width - GUTTER_WIDTH, x - GUTTER_WIDTH);
+  }
+
+  private getSecondsPerPixel({ width }: Spot): number {
+    const { start_s, stop_s } = this.store.range.value;
+    return (stop_s - start_s) / (width - GUTTER_WIDTH);
   }
 }
 

@@ -2,7 +2,7 @@
 import { useStore } from "../store";
 import { useThrottled } from "../drawing";
 import { toggleFullScreen } from "../util";
-import { IconButton, NumberInput, Select, Toggle } from "../layout/controls";
+import { IconButton, NumberInput, Select, Toggle, type Icon } from "../layout/controls";
 import { togglePlay } from "../page";
 import { formatTime } from "../view";
 
@@ -12,30 +12,22 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 export function Transport({ curves = false }: { curves?: boolean }) {
   const store = useStore();
   const { playing, loop, speed } = store;
+  const [icon, play] = playing.value ? (["pause", "Pause"] as const) : (["play", "Play"] as const);
+  const steps = [
+    ["before", "Segment before", "Shift + ←", () => store.stepSegment(-1)],
+    ["back", "One frame back", "←", () => store.step(-1)],
+    [icon, play, "Space", () => togglePlay(store)],
+    ["on", "One frame on", "→", () => store.step(1)],
+    ["after", "Segment after", "Shift + →", () => store.stepSegment(1)],
+  ] as const;
+  const zooms = [
+    ["minus", "Zoom out", "−", () => store.zoomBy(1 / 0.7)],
+    ["fit", "Show all", "0", () => void (store.zoom.value = null)],
+    ["plus", "Zoom in", "+", () => store.zoomBy(0.7)],
+  ] as const;
   return (
     <div class="transport" role="toolbar" aria-label="Playing">
-      <div class="group">
-        <IconButton
-          icon="before"
-          label="Segment before"
-          keys="Shift + ←"
-          onClick={() => store.stepSegment(-1)}
-        />
-        <IconButton icon="back" label="One frame back" keys="←" onClick={() => store.step(-1)} />
-        <IconButton
-          icon={playing.value ? "pause" : "play"}
-          label={playing.value ? "Pause" : "Play"}
-          keys="Space"
-          onClick={() => togglePlay(store)}
-        />
-        <IconButton icon="on" label="One frame on" keys="→" onClick={() => store.step(1)} />
-        <IconButton
-          icon="after"
-          label="Segment after"
-          keys="Shift + →"
-          onClick={() => store.stepSegment(1)}
-        />
-      </div>
+      <IconGroup buttons={steps} />
       <IconButton
         icon="loop"
         label="Loop what is marked, else the segment"
@@ -55,17 +47,20 @@ export function Transport({ curves = false }: { curves?: boolean }) {
           Curves
         </Toggle>
       )}
-      <div class="group">
-        <IconButton icon="minus" label="Zoom out" keys="−" onClick={() => store.zoomBy(1 / 0.7)} />
-        <IconButton
-          icon="fit"
-          label="Show all"
-          keys="0"
-          onClick={() => (store.zoom.value = null)}
-        />
-        <IconButton icon="plus" label="Zoom in" keys="+" onClick={() => store.zoomBy(0.7)} />
-      </div>
+      <IconGroup buttons={zooms} />
       <IconButton icon="full" label="Full screen" keys="F" onClick={toggleFullScreen} />
+    </div>
+  );
+}
+
+function IconGroup(props: {
+  buttons: readonly (readonly [icon: Icon, label: string, keys: string, onClick: () => void])[];
+}) {
+  return (
+    <div class="group">
+      {props.buttons.map(([icon, label, keys, onClick], i) => (
+        <IconButton key={i} {...{ icon, label, keys, onClick }} />
+      ))}
     </div>
   );
 }

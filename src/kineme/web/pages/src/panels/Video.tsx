@@ -10,22 +10,26 @@ import { useStore, type Store, type VideoTime } from "../store";
 import { Button, Toggle } from "../layout/controls";
 import type { OpenRecording } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
-import { Canvas, type Pen } from "../drawing";
+import { Canvas, strokeLine, type Pen } from "../drawing";
+import { listen } from "../util";
 import { Caption } from "../viewer/Viewer";
 import type { Picture } from "../messages";
 import { computePose, type Motion } from "../motion";
 
 interface Props {
   /** Controls below the video; they may change the recording's start in it. */
-  children?: (start: Signal<number>) => JSX.Element;
+  children?: ((start: Signal<number>) => JSX.Element) | undefined;
 }
 
 export function RecordingVideo({ children }: Props) {
-  const store = useStore();
-  const { value: opened } = store.active;
+  const { value: opened } = useStore().active;
   if (!opened?.recording.value.video) return null;
   const { file, id } = opened.recording.value;
-  return <VideoPlayer key={file || id} opened={opened} {...(children && { children })} />;
+  return (
+    <VideoPlayer key={file || id} opened={opened}>
+      {children}
+    </VideoPlayer>
+  );
 }
 
 function VideoPlayer({ opened, children }: Props & { opened: OpenRecording }) {
@@ -112,8 +116,7 @@ function VideoPlayer({ opened, children }: Props & { opened: OpenRecording }) {
 }
 
 /** Return the people whose keypoints are drawn: all open people of the file. */
-function listPeople(store: Store): readonly OpenRecording[] {
-  const { people, active } = store;
+function listPeople({ people, active }: Store): readonly OpenRecording[] {
   if (people.value.length) return people.value;
   return active.value ? [active.value] : [];
 }
@@ -167,10 +170,11 @@ class VideoClock implements VideoTime {
   start(draw: () => void): () => void {
     const { video } = this;
     const syncVideo = (): void => this.syncVideo();
-    const stopEffect = effect(syncVideo);
-    const events = ["loadedmetadata", "seeked", "canplay"] as const;
-    for (const each of events) video.addEventListener(each, syncVideo);
-    video.addEventListener("seeked", draw);
+    const stops = [
+      effect(syncVideo),
+      listen(video, { loadedmetadata: syncVideo, seeked: syncVideo, canplay: syncVideo }),
+      listen(video, { seeked: draw }),
+    ];
     let request = 0;
     const onPicture = (_: number, { mediaTime }: { mediaTime: number }): void => {
       this.shownTime = mediaTime;
@@ -180,13 +184,10 @@ class VideoClock implements VideoTime {
     // Browsers without frame callbacks only report the video's time.
     const tells = typeof HTMLVideoElement.prototype.requestVideoFrameCallback === "function";
     if (tells) request = video.requestVideoFrameCallback(onPicture);
-    else video.addEventListener("timeupdate", draw);
+    else stops.push(listen(video, { timeupdate: draw }));
     return () => {
-      stopEffect();
+      for (const stop of stops) stop();
       if (tells) video.cancelVideoFrameCallback(request);
-      for (const each of [...events, "timeupdate"]) video.removeEventListener(each, syncVideo);
-      video.removeEventListener("seeked", draw);
-      video.removeEventListener("timeupdate", draw);
       video.pause();
     };
   }
@@ -226,11 +227,7 @@ class VideoClock implements VideoTime {
 }
 
 /** Position of a picture that is scaled to fit a box, and box pixels per picture pixel. */
-interface PictureFit {
-  left: number;
-  top: number;
-  scale: number;
-}
+type PictureFit = Record<"left" | "top" | "scale", number>;
 
 export function fitPicture(
   picture: Pick<Picture, "width" | "height">,
@@ -276,10 +273,7 @@ function drawKeypoints(
     for (const [a, b] of bones) {
       if (!drawn.has(a) || !drawn.has(b)) continue;
       pen.globalAlpha = chooseAlpha(a, b);
-      pen.beginPath();
-      pen.moveTo(...at(a));
-      pen.lineTo(...at(b));
-      pen.stroke();
+      strokeLine(pen, [at(a), at(b)]);
     }
     for (const i of drawn) {
       pen.globalAlpha = chooseAlpha(i);

@@ -285,26 +285,19 @@ async function decodeTile(blob: Blob): Promise<Tile> {
   return { grey, picture };
 }
 
-/** Map similarity to a colour between those of different and equal. */
-function colorTile({ grey, picture }: Tile, shades: Uint8ClampedArray): void {
+function colorTile({ grey, picture }: Tile, shades: Uint32Array): void {
   const pixels = new ImageData(picture.width, picture.height);
-  const { data } = pixels;
-  for (let i = 0; i < grey.length; i++) {
-    const shade = 3 * grey[i]!;
-    data[4 * i] = shades[shade]!;
-    data[4 * i + 1] = shades[shade + 1]!;
-    data[4 * i + 2] = shades[shade + 2]!;
-    data[4 * i + 3] = 255;
-  }
+  const colors = new Uint32Array(pixels.data.buffer);
+  grey.forEach((each, i) => (colors[i] = shades[each]!));
   picture.getContext("2d")!.putImageData(pixels, 0, 0);
 }
 
-function computeShades(): Uint8ClampedArray {
+/** Return the colour of each similarity, between those of different and equal, as one pixel. */
+function computeShades(): Uint32Array {
   const low = parseColor(readColor("matrix-low"));
   const high = parseColor(readColor("matrix-high"));
-  const shades = new Uint8ClampedArray(3 * 256);
+  const shades = new Uint8ClampedArray(4 * 256).fill(255);
   for (let grey = 0; grey < 256; grey++)
-    for (let c = 0; c < 3; c++)
-      shades[3 * grey + c] = low[c]! + (grey / 255) * (high[c]! - low[c]!);
-  return shades;
+    low.forEach((from, c) => (shades[4 * grey + c] = from + (grey / 255) * (high[c]! - from)));
+  return new Uint32Array(shades.buffer);
 }

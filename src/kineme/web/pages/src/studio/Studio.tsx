@@ -25,8 +25,14 @@ import { SegmentTable } from "./table/SegmentTable";
 import { TransferDialog } from "./dialogs/TransferDialog";
 import type { Level } from "../messages";
 import { createDeletion, createMerge } from "./editing/edits";
-import { Button, CloseButton, Dialog, ThemeButton } from "../layout/controls";
-import { useSignal, useSignalEffect, type ReadonlySignal, type Signal } from "@preact/signals";
+import { Button, CloseButton, Dialog, NumberInput, ThemeButton } from "../layout/controls";
+import {
+  untracked,
+  useSignal,
+  useSignalEffect,
+  type ReadonlySignal,
+  type Signal,
+} from "@preact/signals";
 import { RecordingVideo } from "../panels/Video";
 import { buildPageAddress, readOpenIds } from "./server/address";
 import { formatCount } from "../util";
@@ -37,12 +43,16 @@ import { STUDIO_KEYS } from "./keys";
 
 export function Studio() {
   const store = useStore();
-  const { view } = useStudio();
+  const { session, view } = useStudio();
   const { value: dialog } = view.dialog;
   const close = (): void => {
     if (view.dialog.value === dialog) view.dialog.value = null; // another one may be open by now
   };
   const OpenDialog = dialog && DIALOGS[dialog];
+  useSignalEffect(() => {
+    // Files or names may have been added.
+    if (view.dialog.value) untracked(() => void session.refresh());
+  });
   const hasFigure = Boolean(store.recording.value?.motion);
   const tabs = [
     { id: "segment", title: "Segment", panel: () => <SegmentPanel /> },
@@ -88,12 +98,12 @@ export function Studio() {
 function Stage() {
   const store = useStore();
   const { session } = useStudio();
-  const turn = useStageReady();
+  const isReady = useStageReady();
   const isSignals = store.recording.value?.motion === null;
   return (
     <>
-      {isSignals ? <Channels ruler /> : turn.value && <Viewer />}
-      <StudioVideo />
+      {isSignals ? <Channels ruler /> : isReady.value && <Viewer />}
+      <RecordingVideo>{(start) => <VideoOffset start={start} />}</RecordingVideo>
       <QueueBar />
       <PosesOffer />
       {!store.active.value && !session.videoWithoutPoses.value && (
@@ -162,34 +172,21 @@ function EditTools() {
   );
 }
 
-/** Show the recording's video, with a field for its offset. */
-function StudioVideo() {
-  return <RecordingVideo>{(start) => <VideoOffset start={start} />}</RecordingVideo>;
-}
-
+/** Edit the video's offset; it is known if the poses come from the video. */
 function VideoOffset({ start }: { start: Signal<number> }) {
   const { session } = useStudio();
-  const { store, api } = session;
-  // The poses come from it, so the offset is known.
-  if (store.recording.value?.video?.picture) return null;
-  const place = (seconds: number): void => {
-    const { value: recording } = store.recording;
-    if (!recording || !Number.isFinite(seconds)) return;
-    start.value = seconds;
-    const request = { offset_s: seconds };
-    void session.notifications.attempt("video", () => api.placeVideo(recording.id, request));
+  const { value: recording } = session.store.recording;
+  if (!recording || recording.video?.picture) return null;
+  const place = (offset_s: number): void => {
+    start.value = offset_s;
+    void session.notifications.attempt("video", () =>
+      session.api.placeVideo(recording.id, { offset_s }),
+    );
   };
   return (
     <label title="Seconds of the video at the start of the recording">
-      starts at{" "}
-      <input
-        type="number"
-        class="number"
-        step="0.02"
-        defaultValue={String(+start.peek().toFixed(3))}
-        onChange={(event) => place(event.currentTarget.valueAsNumber)}
-      />{" "}
-      s of the video
+      starts at <NumberInput step={0.02} value={+start.value.toFixed(3)} onNumber={place} /> s of
+      the video
     </label>
   );
 }

@@ -2,10 +2,10 @@
 import { signal, type Signal } from "@preact/signals";
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
-import type { Editor } from "./editing/editor";
-import type { Poses } from "./poses";
-import type { Review } from "./review/review";
-import type { Uploads } from "./folder/folder";
+import { Editor } from "./editing/editor";
+import { Poses } from "./poses";
+import { Review } from "./review/review";
+import { Uploads } from "./folder/folder";
 import type { Session } from "./session";
 
 export type DialogName = "versions" | "transfer" | "compare" | "export" | "help" | "loops";
@@ -33,6 +33,18 @@ export interface StudioServices {
   uploads: Uploads;
   poses: Poses;
   view: StudioView;
+}
+
+/** Create the services of a session and let the store edit with them. */
+export function createServices(session: Session): StudioServices {
+  const editor = new Editor(session);
+  session.store.edit.value = (edit) => editor.edit(edit);
+  const [uploads, poses] = [new Uploads(session), new Poses(session)];
+  return {
+    ...{ session, editor, uploads, poses },
+    review: new Review(session, editor),
+    view: new StudioView(),
+  };
 }
 
 const StudioContext = createContext<StudioServices | null>(null);

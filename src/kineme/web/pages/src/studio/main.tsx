@@ -4,28 +4,20 @@ import { render } from "preact";
 import "../styles/index.css";
 import "./studio.css";
 import { Store, StoreProvider } from "../store";
-import { StudioProvider, StudioView } from "./context";
+import { createServices, StudioProvider } from "./context";
 import { Api } from "./server/api";
-import { Editor } from "./editing/editor";
 import { getStudioCommand } from "./keys";
-import { Poses } from "./poses";
-import { Review } from "./review/review";
 import { Session } from "./session";
 import { Studio } from "./Studio";
 import { readOpenIds, readToken } from "./server/address";
 import { announceTab } from "./editing/editedRecording";
-import { Uploads } from "./folder/folder";
 import { startPage } from "../page";
 
 function start(): void {
   const store = new Store();
   const session = new Session(new Api(readToken()), store);
-  const editor = new Editor(session);
-  const view = new StudioView();
-  const review = new Review(session, editor);
-  const uploads = new Uploads(session);
-  const services = { session, editor, review, uploads, poses: new Poses(session), view };
-  store.edit.value = (edit) => editor.edit(edit);
+  const services = createServices(session);
+  const { editor, review, view } = services;
   effect(() => {
     if (editor.naming.value) view.tab.value = "segment";
   });

@@ -3,12 +3,11 @@ import { useEffect, useRef } from "preact/hooks";
 import { useStore, type Store } from "../store";
 import { FigureScene, type Tag } from "./scene";
 import { Button, Swatch, Toggle } from "../layout/controls";
-import { NO_COLOR } from "../colors";
-import { formatCount, listen } from "../util";
+import { formatCount } from "../util";
 import { formatPerson, type OpenRecording } from "../recordingData";
 import { findPrimitiveAt, getSegmentName } from "../segments";
 import { formatTime } from "../view";
-import { MAX_MEMBERS } from "./placement";
+import { MAX_MEMBERS, type PlacedFigure } from "./placement";
 import { effect } from "@preact/signals";
 import { CLICK_TOLERANCE, isPrinting, theme, ticker } from "../drawing";
 import type { Stage } from "./stage";
@@ -17,6 +16,7 @@ export function Viewer() {
   const store = useStore();
   const canvas = useRef<HTMLCanvasElement>(null);
   const scene = useRef<FigureScene | null>(null);
+  const pressed = useRef({ x: 0, y: 0 });
   useEffect(() => {
     const element = canvas.current!;
     const made = new FigureScene(store, element);
@@ -35,6 +35,19 @@ export function Viewer() {
         role="img"
         aria-label="Figure in 3-D. Drag or press alt and an arrow key to look from another side."
         onKeyDown={(event) => turnByKey(event, scene.current)}
+        onPointerDown={({ x, y }) => (pressed.current = { x, y })}
+        onClick={(event) => {
+          const { x, y } = pressed.current;
+          if (Math.hypot(event.x - x, event.y - y) > CLICK_TOLERANCE) return;
+          const box = event.currentTarget.getBoundingClientRect();
+          pickFigure(
+            store,
+            scene.current?.pick(
+              (2 * (event.x - box.left)) / box.width - 1,
+              1 - (2 * (event.y - box.top)) / box.height,
+            ),
+          );
+        }}
       />
       <Caption />
       <ViewerButtons onFrame={() => scene.current?.frameFigures()} />
@@ -103,7 +116,7 @@ export function Caption() {
       ))}
       {present && !people.length && (
         <p>
-          <Swatch color={store.getColor(present) ?? NO_COLOR} /> {getSegmentName(present)}
+          <Swatch color={store.getColor(present)} /> {getSegmentName(present)}
         </p>
       )}
       {store.ghost.value && !stepping && (
@@ -129,7 +142,7 @@ function PersonCaption({ opened }: { opened: OpenRecording }) {
   const called = formatPerson(person ?? name);
   return (
     <p>
-      <Swatch color={(present && store.getColor(present)) ?? NO_COLOR} />{" "}
+      <Swatch color={present && store.getColor(present)} />{" "}
       {opened === store.active.value ? <strong>{called}</strong> : called}{" "}
       <span class="quiet">{present && getSegmentName(present)}</span>
     </p>
@@ -181,7 +194,7 @@ function startUpdates(store: Store, scene: FigureScene, canvas: HTMLCanvasElemen
     }),
     ticker.add((seconds) => {
       if (stale.figures) scene.populate();
-      if (stale.paint) scene.setColors();
+      if (stale.paint) scene.stage.setColors();
       if (!store.active.value || (!stale.picture && !stale.edges)) return;
       const moving = stale.picture;
       if (moving) scene.setPoses(seconds);
@@ -191,7 +204,6 @@ function startUpdates(store: Store, scene: FigureScene, canvas: HTMLCanvasElemen
       tags.show(scene.getNameTags());
       if (moving) sharpenSoon();
     }),
-    pickOnClick(store, scene, canvas),
   ];
   return () => {
     for (const stop of stops) stop();
@@ -223,23 +235,12 @@ function readPoseSignals(store: Store): void {
   void [store.trails.value, store.follow.value, store.ghost.value];
 }
 
-/** Select the clicked member of a cluster, or activate the clicked recording. */
-function pickOnClick(store: Store, scene: FigureScene, canvas: HTMLCanvasElement): () => void {
-  let from = { x: 0, y: 0 };
-  const onDown = (event: PointerEvent): void => void (from = { x: event.x, y: event.y });
-  const onClick = (event: MouseEvent): void => {
-    if (Math.hypot(event.x - from.x, event.y - from.y) > CLICK_TOLERANCE) return;
-    const box = canvas.getBoundingClientRect();
-    const x = (2 * (event.x - box.left)) / box.width - 1;
-    const y = 1 - (2 * (event.y - box.top)) / box.height;
-    const placed = scene.pick(x, y);
-    if (placed?.segment) store.select(placed.segment);
-    else if (placed && store.opened.value.length > 1) {
-      const index = store.opened.value.findIndex((each) => each.motion.value === placed.motion);
-      if (index >= 0 && index !== store.current.value) store.show(index);
-    }
-  };
-  return listen(canvas, { pointerdown: onDown, click: onClick });
+/** Select the member of a cluster that a figure shows, or activate its recording. */
+function pickFigure(store: Store, placed: PlacedFigure | undefined): void {
+  if (!placed) return;
+  if (placed.segment) return store.select(placed.segment);
+  const index = store.opened.value.findIndex((each) => each.motion.value === placed.motion);
+  if (index >= 0 && index !== store.current.value) store.show(index);
 }
 
 /** Show the names of several people above their heads. */

@@ -10,14 +10,17 @@ import {
   type Placement,
 } from "./placement";
 import { createBodyMaterial, createTrailMaterial, type Fog } from "./stage";
-import { computePose, findRoot, getHeading, type Motion } from "../motion";
+import {
+  computePose,
+  createPose,
+  findRoot,
+  getHeading,
+  getRootPosition,
+  type Motion,
+} from "../motion";
 import { readColor } from "../drawing";
 
-interface Colors {
-  body: string;
-  joint: string;
-  shadow: string;
-}
+type Colors = Record<"body" | "joint" | "shadow", string>;
 
 const UP = new THREE.Vector3(0, 1, 0);
 const LIGHT = new THREE.Vector3(0.35, 1, 0.25); // direction of the light that casts the shadow
@@ -30,6 +33,7 @@ export class Figure {
   private readonly bones: THREE.InstancedMesh;
   private readonly joints: THREE.InstancedMesh;
   private readonly skull: THREE.InstancedMesh;
+  private readonly meshes: readonly THREE.InstancedMesh[];
   private readonly materials: Record<keyof Colors, THREE.RawShaderMaterial>;
 
   constructor(
@@ -37,20 +41,21 @@ export class Figure {
     private readonly head: MotionHead,
     private readonly anatomy: Anatomy,
   ) {
-    const paints = {
+    this.materials = {
       body: createBodyMaterial(haze, 1),
       joint: createBodyMaterial(haze, 1),
       shadow: createBodyMaterial(haze, 0),
     };
-    this.materials = paints;
-    this.bones = createInstances(bone, paints.body, head.bones.length);
-    this.joints = createInstances(ball, paints.joint, head.joints.length);
-    this.skull = createInstances(ball, paints.body, 1);
+    const { body, joint } = this.materials;
+    this.bones = createInstances(bone, body, head.bones.length);
+    this.joints = createInstances(ball, joint, head.joints.length);
+    this.skull = createInstances(ball, body, 1);
+    this.meshes = [this.bones, this.joints, this.skull];
     const shade = new THREE.Group();
     shade.matrixAutoUpdate = false;
     shade.matrix.copy(createShadowMatrix(anatomy.ground + 0.001 * anatomy.size));
-    shade.add(...[this.bones, this.joints, this.skull].map((mesh) => this.createShadow(mesh)));
-    this.group.add(this.bones, this.joints, this.skull, shade);
+    shade.add(...this.meshes.map((mesh) => this.createShadow(mesh)));
+    this.group.add(...this.meshes, shade);
   }
 
   /** Apply a pose (x, y, z per joint); NaN hides a joint and its bones. */
@@ -58,22 +63,16 @@ export class Figure {
     const { bones, joints, skull } = this.anatomy;
     this.head.bones.forEach(([from, to], i) => {
       const radius = i === skull ? 0.6 * bones[i]! : bones[i]!;
-      this.bones.setMatrixAt(
-        i,
-        placeBone(readPoint(positions, from, a), readPoint(positions, to, b), radius),
-      );
+      const ends = [readPoint(positions, from, a), readPoint(positions, to, b)] as const;
+      this.bones.setMatrixAt(i, placeBone(...ends, radius));
     });
-    for (let i = 0; i < joints.length; i++) {
-      readPoint(positions, i, a);
-      const radius = Number.isNaN(a.x) ? 0 : joints[i]!;
-      this.joints.setMatrixAt(
-        i,
-        matrix.makeScale(radius, radius, radius).setPosition(zeroIfMissing(a)),
-      );
+    for (const [i, radius] of joints.entries()) {
+      const isMissing = Number.isNaN(readPoint(positions, i, a).x);
+      matrix.makeScale(radius, radius, radius).setPosition(a);
+      this.joints.setMatrixAt(i, isMissing ? matrix.makeScale(0, 0, 0) : matrix);
     }
     this.skull.setMatrixAt(0, this.placeSkull(positions));
-    for (const mesh of [this.bones, this.joints, this.skull])
-      mesh.instanceMatrix.needsUpdate = true;
+    for (const mesh of this.meshes) mesh.instanceMatrix.needsUpdate = true;
   }
 
   setColors(colors: Colors): void {
@@ -91,7 +90,7 @@ export class Figure {
   }
 
   dispose(): void {
-    for (const mesh of [this.bones, this.joints, this.skull]) mesh.dispose();
+    for (const mesh of this.meshes) mesh.dispose();
     for (const paint of Object.values(this.materials)) paint.dispose();
   }
 
@@ -134,10 +133,6 @@ function createInstances(
 
 function readPoint(positions: Float32Array, joint: number, out: THREE.Vector3): THREE.Vector3 {
   return out.fromArray(positions, 3 * joint);
-}
-
-function zeroIfMissing(point: THREE.Vector3): THREE.Vector3 {
-  return Number.isNaN(point.x) ? point.set(0, 0, 0) : point;
 }
 
 /** Return the matrix that moves the unit bone between two points; zero if one is missing. */
@@ -202,7 +197,7 @@ export class Ghost {
     const figure = new Figure(this.haze, motion.head, getAnatomy(motion));
     figure.setOpacity(OPACITY);
     this.scene.add(figure.group);
-    this.pose = new Float32Array(motion.head.joints.length * 3);
+    this.pose = createPose(motion);
     [this.figure, this.motion] = [figure, motion];
     return figure;
   }
@@ -210,14 +205,9 @@ export class Ghost {
 
 /** Return the placement that gives a repetition the start and heading of another. */
 function computeGhostPlacement(motion: Motion, segment: Segment, over: Segment): Placement {
-  const pose = new Float32Array(motion.head.joints.length * 3);
-  const root = 3 * findRoot(motion.head);
-  const at = (seconds: number): [number, number] => {
-    computePose(motion, seconds, pose);
-    return [pose[root] || 0, pose[root + 2] || 0];
-  };
+  const [slot, from] = [over, segment].map((each) => getRootPosition(motion, each.start_s));
   const turn = getHeading(motion, over.start_s) - getHeading(motion, segment.start_s);
-  return { slot: at(over.start_s), from: at(segment.start_s), turn, isFixed: false };
+  return { slot: slot!, from: from!, turn, isFixed: false };
 }
 
 /** Points per trail. */

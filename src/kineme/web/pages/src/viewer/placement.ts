@@ -1,7 +1,14 @@
 /** Compute where figures stand, which time they show and how thick they are. Pure functions. */
 import type { MotionHead, PlayedLoop, Segment } from "../messages";
-import { computePose, findRoot, getHeading, unpackMotion, type Motion } from "../motion";
-import { memoize } from "../util";
+import {
+  computePose,
+  createPose,
+  getHeading,
+  getRootPosition,
+  unpackMotion,
+  type Motion,
+} from "../motion";
+import { groupBy, memoize } from "../util";
 import { decodeBase64 } from "../recordingData";
 
 /** A figure and its placement. */
@@ -38,21 +45,17 @@ interface Shown {
 
 /** Place several recordings side by side; one figure or people of one file stay in place. */
 export function placeSideBySide(figures: readonly Shown[], size: number): PlacedFigure[] {
-  const spaces = new Map<string | number, Shown[]>();
-  figures.forEach((each, i) => {
-    const space = each.file || i;
-    spaces.set(space, [...(spaces.get(space) ?? []), each]);
-  });
+  const spaces = [...groupBy(figures, ({ file }, i) => file || i).values()];
   const placed = new Map<Shown, Placement>();
-  const widths = [...spaces.values()].map((people) => 0.95 * size + measureExtent(people)[2]);
+  const extents = spaces.map(measureExtent);
+  const widths = extents.map(([, , extent]) => 0.95 * size + extent);
   let left = -widths.reduce((sum, width) => sum + width, 0) / 2;
-  [...spaces.values()].forEach((people, i) => {
-    const x = left + widths[i]! / 2;
+  spaces.forEach((people, i) => {
+    const [x, z] = extents[i]!;
+    const slot: Placement = { ...UNMOVED, slot: [left + widths[i]! / 2, 0], from: [x, z] };
     left += widths[i]!;
-    const [middleX, middleZ] = measureExtent(people);
-    const slot: Placement = { ...UNMOVED, slot: [x, 0], from: [middleX, middleZ] };
     for (const each of people)
-      placed.set(each, spaces.size === 1 ? UNMOVED : { ...slot, isFixed: people.length === 1 });
+      placed.set(each, spaces.length === 1 ? UNMOVED : { ...slot, isFixed: people.length === 1 });
   });
   return figures.map((each) => ({
     motion: each.motion,
@@ -70,12 +73,7 @@ export function isFree({ placement }: PlacedFigure): boolean {
 /** Return the centre (x, z) of several people at the start, and their extent along x. */
 function measureExtent(people: readonly Shown[]): [number, number, number] {
   if (people.length < 2) return [0, 0, 0];
-  const places = people.map(({ motion }) => {
-    const pose = new Float32Array(motion.head.joints.length * 3);
-    computePose(motion, 0, pose);
-    const root = 3 * findRoot(motion.head);
-    return [pose[root] || 0, pose[root + 2] || 0] as const;
-  });
+  const places = people.map(({ motion }) => getRootPosition(motion, 0));
   const [xs, zs] = [places.map(([x]) => x), places.map(([, z]) => z)];
   const [low, high] = [Math.min(...xs), Math.max(...xs)];
   return [(low + high) / 2, (Math.min(...zs) + Math.max(...zs)) / 2, high - low];
@@ -90,17 +88,14 @@ export function placeInStep(
   const shown = members.slice(0, MAX_MEMBERS);
   const columns = Math.ceil(Math.sqrt(shown.length * 1.7));
   const rows = Math.ceil(shown.length / columns);
-  const pose = new Float32Array(motion.head.joints.length * 3);
-  const root = findRoot(motion.head);
   return shown.map((segment, i) => {
-    computePose(motion, segment.start_s, pose);
     const row = Math.floor(i / columns);
     const inRow = row === rows - 1 ? shown.length - row * columns : columns;
     const x = ((i % columns) - (inRow - 1) / 2) * 0.85 * size;
     const z = ((rows - 1) / 2 - row) * 1.05 * size;
     const placement: Placement = {
       slot: [x, z],
-      from: [pose[3 * root] || 0, pose[3 * root + 2] || 0],
+      from: getRootPosition(motion, segment.start_s),
       turn: -getHeading(motion, segment.start_s),
       isFixed: false,
     };
@@ -155,19 +150,22 @@ export const TAPER = 0.62;
 
 function measureAnatomy(motion: Motion): Anatomy {
   const { head } = motion;
-  const pose = new Float32Array(head.joints.length * 3);
+  const pose = createPose(motion);
   const lowest: number[] = [];
   const extents: number[] = [];
   const lengths = head.bones.map(() => [] as number[]);
   const seconds = head.n_samples / head.sample_fps;
   for (let i = 0; i < 100; i++) {
     computePose(motion, (seconds * i) / 100, pose);
-    const box = computeBox(pose);
-    if (!box) continue;
-    lowest.push(box.low[1]);
-    extents.push(Math.max(...box.high.map((high, axis) => high - box.low[axis]!)));
+    const axes = [0, 1, 2].map((axis) =>
+      pose.filter((value, k) => k % 3 === axis && !Number.isNaN(value)),
+    );
+    if (!axes[0]!.length) continue;
+    lowest.push(Math.min(...axes[1]!));
+    extents.push(Math.max(...axes.map((values) => Math.max(...values) - Math.min(...values))));
     head.bones.forEach(([a, b], bone) => {
-      const length = computeDistance(pose, a, b);
+      const apart = [0, 1, 2].map((axis) => pose[3 * a + axis]! - pose[3 * b + axis]!);
+      const length = Math.hypot(...apart);
       if (Number.isFinite(length)) lengths[bone]!.push(length);
     });
   }
@@ -211,27 +209,6 @@ function tracePathToRoot(head: MotionHead, joint: number): Set<number> {
   const path = new Set<number>();
   for (let at = joint; at >= 0 && !path.has(at); at = head.parents[at] ?? -1) path.add(at);
   return path;
-}
-
-/** Return the bounding box of the joints that are not missing; null if all are. */
-function computeBox(
-  pose: Float32Array,
-): { low: [number, number, number]; high: [number, number, number] } | null {
-  const low: [number, number, number] = [Infinity, Infinity, Infinity];
-  const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < pose.length; i++) {
-    const value = pose[i]!;
-    if (Number.isNaN(value)) continue;
-    const axis = (i % 3) as 0 | 1 | 2;
-    if (value < low[axis]) low[axis] = value;
-    if (value > high[axis]) high[axis] = value;
-  }
-  return low[0] <= high[0] ? { low, high } : null;
-}
-
-function computeDistance(pose: Float32Array, a: number, b: number): number {
-  const at = (joint: number, axis: number): number => pose[3 * joint + axis]!;
-  return Math.hypot(at(a, 0) - at(b, 0), at(a, 1) - at(b, 1), at(a, 2) - at(b, 2));
 }
 
 /** Return a quantile; 0 of no values. */

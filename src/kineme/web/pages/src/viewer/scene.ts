@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { NO_COLOR, adaptColor } from "../colors";
 import type { Segment } from "../messages";
-import { computePose, findRoot, getHeading, type Motion } from "../motion";
+import { computePose, createPose, findRoot, getHeading, type Motion } from "../motion";
 import { formatPerson } from "../recordingData";
 import { findPrimitiveAt } from "../segments";
 import type { Store } from "../store";
@@ -56,7 +56,7 @@ export class FigureScene {
     this.figures = this.placed.map(
       ({ motion }) => new Figure(this.stage.fog, motion.head, getAnatomy(motion)),
     );
-    this.poses = this.placed.map(({ motion }) => new Float32Array(motion.head.joints.length * 3));
+    this.poses = this.placed.map(({ motion }) => createPose(motion));
     for (const figure of this.figures) this.stage.scene.add(figure.group);
     const lead = this.placed[0];
     if (!lead) return;
@@ -72,10 +72,6 @@ export class FigureScene {
     this.contentKey = scene;
   }
 
-  setColors(): void {
-    this.stage.setColors();
-  }
-
   /** Pose all figures for the playhead; `seconds` since the last frame. */
   setPoses(seconds: number): void {
     const { store } = this;
@@ -86,27 +82,16 @@ export class FigureScene {
       const pose = this.poses[i]!;
       this.placePose(each, getFigureTime(each, store.playhead.value, leader), pose);
       this.figures[i]!.setPose(pose);
-      const color = adaptColor(
-        this.getColor(this.findPrimitive(each, store.playhead.value)),
-        theme.value,
-      );
+      const color = this.getColorAt(each, store.playhead.value);
       const leads = each.segment !== null && each.segment === leader;
       const joints = each.segment ? joint : color;
-      this.figures[i]!.setColors({
-        body: leads ? color : body,
-        joint: leads ? color : joints,
-        shadow,
-      });
+      const colors = leads ? { body: color, joint: color } : { body, joint: joints };
+      this.figures[i]!.setColors({ ...colors, shadow });
     });
     const lead = this.placed[0];
     const free = this.placed.length === 1 && lead?.segment === null;
-    if (lead)
-      this.ghost.show(
-        lead.motion,
-        free ? store.ghost.value : null,
-        store.present.value,
-        store.playhead.value,
-      );
+    const ghost = free ? store.ghost.value : null;
+    if (lead) this.ghost.show(lead.motion, ghost, store.present.value, store.playhead.value);
     this.drawTrails();
     if (store.follow.value) this.followLead(seconds);
   }
@@ -115,13 +100,11 @@ export class FigureScene {
   frameFigures(): void {
     const lead = this.placed[0];
     if (!lead) return;
-    this.placed.forEach((each, i) => {
-      this.placePose(
-        each,
-        getFigureTime(each, this.store.playhead.value, this.findLeader()),
-        this.poses[i]!,
-      );
-    });
+    const { playhead } = this.store;
+    const leader = this.findLeader();
+    this.placed.forEach((each, i) =>
+      this.placePose(each, getFigureTime(each, playhead.value, leader), this.poses[i]!),
+    );
     const { ground } = getAnatomy(lead.motion);
     const alone = this.placed.length === 1;
     if (!alone && this.placed.every(isFree)) return this.frameTogether(ground);
@@ -155,8 +138,7 @@ export class FigureScene {
     if (!store.people.value.length || store.inStep.value) return [];
     return this.placed.flatMap((each, i) => {
       const at = new THREE.Vector3().fromArray(this.poses[i]!, 3 * findRoot(each.motion.head));
-      at.y = findHighest(this.poses[i]!) + 0.06 * this.size;
-      at.project(this.stage.camera);
+      at.setY(findHighest(this.poses[i]!) + 0.06 * this.size).project(this.stage.camera);
       if (Number.isNaN(at.x) || Math.abs(at.z) > 1) return [];
       const isActive = each.motion === store.active.value?.motion.value;
       return [{ name: each.name, x: (1 + at.x) / 2, y: (1 - at.y) / 2, isActive }];
@@ -224,9 +206,9 @@ export class FigureScene {
   /** Return the centre of the figures (x, z). */
   private getMiddle(): [number, number] {
     const roots = this.getRootPositions();
-    const computeMidpoint = (values: number[]): number =>
+    const getMidpoint = (values: number[]): number =>
       values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0;
-    return [computeMidpoint(roots.map(([x]) => x)), computeMidpoint(roots.map(([, z]) => z))];
+    return [getMidpoint(roots.map(([x]) => x)), getMidpoint(roots.map(([, z]) => z))];
   }
 
   private followLead(seconds: number): void {
@@ -237,15 +219,12 @@ export class FigureScene {
     this.stage.moveTo(target.x + share * (x - target.x), target.z + share * (z - target.z));
   }
 
-  /** Return the primitive of a figure's recording at a time (seconds). */
-  private findPrimitive({ motion }: PlacedFigure, time: number): Segment | undefined {
+  /** Return the colour of the primitive of a figure's recording at a time (seconds). */
+  private getColorAt({ motion }: PlacedFigure, time: number): string {
     const { opened, active } = this.store;
     const shown = opened.value.find((each) => each.motion.value === motion) ?? active.value;
-    return shown && findPrimitiveAt(shown.recording.value.segmentation, time);
-  }
-
-  private getColor(segment: Segment | undefined): string {
-    return (segment && this.store.getColor(segment)) ?? NO_COLOR;
+    const segment = shown && findPrimitiveAt(shown.recording.value.segmentation, time);
+    return adaptColor((segment && this.store.getColor(segment)) ?? NO_COLOR, theme.value);
   }
 
   private drawTrails(): void {
@@ -256,10 +235,7 @@ export class FigureScene {
     const times = Trails.listTimes(playhead.value, TRAIL_LENGTH);
     const paths = this.placed.map((each) => this.computePaths(each, times));
     const colors = this.placed.flatMap((each, i) => {
-      const ofTimes = times.map(
-        (time) =>
-          new THREE.Color(adaptColor(this.getColor(this.findPrimitive(each, time)), theme.value)),
-      );
+      const ofTimes = times.map((time) => new THREE.Color(this.getColorAt(each, time)));
       return paths[i]!.map(() => ofTimes);
     });
     this.trails.draw(paths.flat(), colors, this.stage.camera.position);
@@ -268,7 +244,7 @@ export class FigureScene {
   private computePaths(placed: PlacedFigure, times: readonly number[]): Float32Array[] {
     const joints = listEndJoints(placed.motion);
     const paths = joints.map(() => new Float32Array(3 * times.length));
-    const pose = new Float32Array(placed.motion.head.joints.length * 3);
+    const pose = createPose(placed.motion);
     times.forEach((time, i) => {
       this.placePose(placed, time, pose);
       joints.forEach((joint, k) => paths[k]!.set(pose.subarray(3 * joint, 3 * joint + 3), 3 * i));

@@ -141,7 +141,9 @@ class Floor {
 
   constructor() {
     const plane = new THREE.PlaneGeometry(1, 1).rotateX(-Math.PI / 2);
-    this.mesh = new THREE.Mesh(plane, createFloorMaterial(this.uniforms));
+    const material = createMaterial(FLOOR_VERTEX, FLOOR_FRAGMENT, this.uniforms);
+    material.setValues({ depthTest: false, depthWrite: false });
+    this.mesh = new THREE.Mesh(plane, material);
     this.mesh.renderOrder = -1; // drawn first, below everything else
     this.mesh.frustumCulled = false;
   }
@@ -294,23 +296,13 @@ void main() {
 /** Create a material for instances of one colour; `lit` is 1 for bodies and 0 for shadows. */
 export function createBodyMaterial(haze: Fog, lit: 0 | 1): THREE.RawShaderMaterial {
   const colors = { color: { value: new THREE.Color() }, lit: { value: lit }, alpha: { value: 1 } };
-  const uniforms = { ...haze, ...colors };
-  return createMaterial(BODY_VERTEX, FOG_FRAGMENT, uniforms);
+  return createMaterial(BODY_VERTEX, FOG_FRAGMENT, { ...haze, ...colors });
 }
 
 /** Create a material for ribbons with transparent vertex colours. */
 export function createTrailMaterial(haze: Fog): THREE.RawShaderMaterial {
   const made = createMaterial(TRAIL_VERTEX, FOG_FRAGMENT, { ...haze });
   made.setValues({ transparent: true, depthWrite: false, side: THREE.DoubleSide });
-  return made;
-}
-
-/** Create a material for the ground and its grid; it is drawn below everything else. */
-function createFloorMaterial(
-  uniforms: Fog & Record<string, THREE.IUniform>,
-): THREE.RawShaderMaterial {
-  const made = createMaterial(FLOOR_VERTEX, FLOOR_FRAGMENT, uniforms);
-  made.setValues({ depthTest: false, depthWrite: false });
   return made;
 }
 

@@ -1,11 +1,9 @@
-import { cleanup, fireEvent, render, waitFor } from "@testing-library/preact";
-import { afterEach, expect, test } from "vitest";
+import { fireEvent, render, waitFor } from "@testing-library/preact";
+import { expect, test } from "vitest";
 import { NameInput, NumberInput } from "../../src/layout/controls";
 import { SegmentPanel } from "../../src/studio/panels/SegmentPanel";
 import { row, table } from "../studio/tables";
 import { show } from "./page";
-
-afterEach(cleanup);
 
 test("a draft stays while the value changes, and goes to what it was begun for", () => {
   const named: string[] = [];

@@ -1,5 +1,4 @@
-import { cleanup } from "@testing-library/preact";
-import { afterEach, beforeEach, expect, test } from "vitest";
+import { beforeEach, expect, test } from "vitest";
 import { FPS, starts, table } from "../studio/tables";
 import { show, type Page } from "./page";
 
@@ -9,8 +8,6 @@ beforeEach(async () => {
   page = await show(<></>, table());
   page.server.latency = 3;
 });
-afterEach(cleanup);
-
 const goTo = (frame: number): void => page.store.seek(frame / FPS);
 const waitUntilSent = (): Promise<void> => page.services.session.edited.value!.waitUntilSent();
 const listStarts = (): number[] => starts(page.store.table.value!);

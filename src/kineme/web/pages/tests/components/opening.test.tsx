@@ -1,4 +1,4 @@
-import { act, cleanup, fireEvent } from "@testing-library/preact";
+import { act, fireEvent } from "@testing-library/preact";
 import { afterEach, expect, test, vi } from "vitest";
 import type { State } from "../../src/messages";
 import { OpeningProgress } from "../../src/studio/folder/FolderPanel";
@@ -6,10 +6,7 @@ import { listing } from "../studio/briefs";
 import { table } from "../studio/tables";
 import { show } from "./page";
 
-afterEach(() => {
-  cleanup();
-  vi.useRealTimers();
-});
+afterEach(() => void vi.useRealTimers());
 
 test("a recording that takes long can be left while another one is shown", async () => {
   const page = await show(<OpeningProgress />, table());

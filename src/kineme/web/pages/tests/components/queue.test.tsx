@@ -1,11 +1,9 @@
-import { cleanup, fireEvent, waitFor } from "@testing-library/preact";
-import { afterEach, expect, test } from "vitest";
+import { fireEvent, waitFor } from "@testing-library/preact";
+import { expect, test } from "vitest";
 import { Notices } from "../../src/studio/Studio";
 import { ReviewPanel } from "../../src/studio/review/ReviewPanel";
 import { row, table } from "../studio/tables";
 import { show, type Page } from "./page";
-
-afterEach(cleanup);
 
 const rows = [
   row("primitive", 0, 30, 0, "hop"),

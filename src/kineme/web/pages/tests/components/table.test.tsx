@@ -1,10 +1,8 @@
-import { cleanup, fireEvent, waitFor, within } from "@testing-library/preact";
-import { afterEach, expect, test } from "vitest";
+import { fireEvent, waitFor, within } from "@testing-library/preact";
+import { expect, test } from "vitest";
 import { SegmentTable } from "../../src/studio/table/SegmentTable";
 import { row, table } from "../studio/tables";
 import { show, type Page } from "./page";
-
-afterEach(cleanup);
 
 const rows = [
   row("activity", 0, 100, 0, "gymnastics"),

@@ -1,5 +1,5 @@
-import { cleanup, fireEvent, waitFor } from "@testing-library/preact";
-import { afterEach, beforeEach, expect, test } from "vitest";
+import { fireEvent, waitFor } from "@testing-library/preact";
+import { beforeEach, expect, test } from "vitest";
 import { Timeline } from "../../src/panels/Timeline";
 import { GUTTER_WIDTH, layOutLanes } from "../../src/panels/lanes";
 import { row, table } from "../studio/tables";
@@ -22,8 +22,6 @@ beforeEach(async () => {
   canvas = page.getByRole("img", { name: /Segments over time/ });
   readTexts(canvas); // lanes exist only after drawing
 });
-
-afterEach(cleanup);
 
 /** Return the pointer position of a frame on the primitives' lane. */
 function at(frame: number): PointerEventInit {

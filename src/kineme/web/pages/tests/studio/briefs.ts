@@ -1,23 +1,18 @@
 /** Create brief tables of a folder. */
 import type { BriefTable, Listing, Segments } from "../../src/messages";
+import { createTable, segment } from "../recordings";
 
 /** Create two activities; the second border has this confidence. */
 export function brief(border: number, checked: number[] = []): BriefTable {
-  return {
-    n_frames: 100,
-    fps: 10,
-    level: ["activity", "activity"],
-    kind: ["activity", "activity"],
-    start_frame: [0, 40],
-    stop_frame: [40, 100],
-    cluster: [0, 1],
-    activity: [0, 1],
-    label: ["", "hop"],
-    confidence: [1, 1],
-    border_confidence: [null, border],
-    checked,
-    comments: 0,
-  };
+  const activity = { level: "activity", confidence: 1 } as const;
+  const rows = [
+    segment(0, 40, { ...activity, activity: 0 }),
+    segment(40, 100, {
+      ...activity,
+      ...{ activity: 1, cluster: 1, label: "hop", border_confidence: border },
+    }),
+  ];
+  return createBrief(createTable(rows.map((row, i) => ({ ...row, checked: checked.includes(i) }))));
 }
 
 export function listing(id: string, table: BriefTable | null): Listing {

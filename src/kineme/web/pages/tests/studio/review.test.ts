@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { listDoubts, countProgress, getConfidence } from "../../src/confidence";
+import { listDoubts, countProgress, Confidence } from "../../src/confidence";
 import { sliceRows, NO_FILTER, listRows, findSpansToMerge } from "../../src/studio/table/rows";
 import { segment, createTable } from "../recordings";
 
@@ -52,7 +52,7 @@ it("has one number for a segment, wherever that is shown", () => {
   ]);
   const [doubt] = listDoubts(found);
   const [first] = listRows(found, NO_FILTER, "confidence", false);
-  const { short, text, why } = getConfidence(found, found.segments[0]!);
+  const { short, text, why } = new Confidence(found, found.segments[0]!);
   expect([short, text]).toEqual(["19 %", "confidence 19 %"]);
   expect([doubt!.segment, doubt!.confidence.short]).toEqual([found.segments[0], short]);
   expect([first!.segment, first!.confidence.short]).toEqual([found.segments[0], short]);

@@ -1,6 +1,6 @@
 /** Create small segment tables and recordings for tests of the studio. */
 import type { Level, Recording, Segment, Segments } from "../../src/messages";
-import { createTable, segment } from "../recordings";
+import { createTable, recording as createRecording, segment } from "../recordings";
 
 export const FPS = 10;
 
@@ -19,24 +19,8 @@ export function table(): Segments {
   ]);
 }
 
-export function recording(segmentation = table(), revision = 0): Recording {
-  return {
-    id: "take",
-    name: "take.bvh",
-    n_frames: 100,
-    fps: FPS,
-    motion: null,
-    matrix: { fps: 10, tile: 256, sizes: [100] },
-    segmentation,
-    levels: [],
-    video: null,
-    read_options: {},
-    revision,
-    can_undo: false,
-    can_redo: false,
-    saved: "",
-    warnings: [],
-  };
+export function recording(segmentation = table()): Recording {
+  return createRecording(segmentation);
 }
 
 /** Return the start frames of the primitives. */

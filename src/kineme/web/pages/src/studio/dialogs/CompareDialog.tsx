@@ -3,7 +3,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { useStudio, type DialogProps } from "../context";
 import type { AnnotatorChoice, CompareRequest, Version } from "../../messages";
-import { Button, Checkbox, Dialog, toggleMember, useBusy } from "../../layout/controls";
+import { Button, Checkbox, Dialog, toggleMember, useBusy, WorkButton } from "../../layout/controls";
 import { formatCount } from "../../util";
 import { describeEdit } from "../editing/edits";
 import { Table } from "../../layout/tables";
@@ -11,7 +11,6 @@ import { Table } from "../../layout/tables";
 export function CompareDialog({ close }: DialogProps) {
   const { session } = useStudio();
   const [busy, run] = useBusy();
-  useEffect(() => void session.refresh(), [session]); // files may have been added
   const { presets = [], annotations = [] } = session.state.value ?? {};
   const compare = (name: string, request: CompareRequest): Promise<void> =>
     run(name, async () => {
@@ -28,13 +27,7 @@ export function CompareDialog({ close }: DialogProps) {
         rows={presets.map(({ name, help }) => ({
           key: name,
           cells: [
-            <Button
-              disabled={busy !== ""}
-              onClick={() => void compare(name, { preset: name })}
-              busy={busy === name}
-            >
-              {name}
-            </Button>,
+            <WorkButton name={name} busy={busy} work={() => compare(name, { preset: name })} />,
             <span class="quiet">{help}</span>,
           ],
         }))}
@@ -43,13 +36,7 @@ export function CompareDialog({ close }: DialogProps) {
       <div class="choices">
         {annotations.map(({ id, name }) => (
           <span class="group" key={id}>
-            <Button
-              disabled={busy !== ""}
-              onClick={() => void compare(name, { annotation: id })}
-              busy={busy === name}
-            >
-              {name}
-            </Button>
+            <WorkButton name={name} busy={busy} work={() => compare(name, { annotation: id })} />
             <Button
               aria-label={`Work on ${name}: it becomes the table`}
               title="It becomes the table you work on; the present one is kept in History"

@@ -1,7 +1,6 @@
 /** Export the segments in any format that the package writes. */
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
-import { Button, Dialog, RadioGroup, useBusy } from "../../layout/controls";
+import { Dialog, RadioGroup, useBusy, WorkButton } from "../../layout/controls";
 import { Table } from "../../layout/tables";
 import type { Level } from "../../messages";
 import { type DialogProps, useStudio } from "../context";
@@ -18,22 +17,20 @@ export function ExportDialog({ close }: DialogProps) {
   const level = useSignal<Level | "">("");
   const scope = useSignal<"one" | "all">("one");
   const [busy, run] = useBusy();
-  useEffect(() => void session.refresh(), [session]);
   const recordings = session.state.value?.recordings ?? [];
-  const done = recordings.filter((each) => session.list.isChecked(each)).length;
+  const done = recordings.filter((each) => session.list.getStatus(each) === "checked").length;
   const write = (format: string): Promise<void> =>
     run(format, async () => {
       const { api, notifications } = session;
-      const edited = session.edited.value;
-      if (edited)
-        await notifications.attempt("export", async () => {
-          const isAll = scope.value === "all";
-          saveFile(
-            await (isAll
-              ? api.exportAll(format, level.value)
-              : api.exportSegments(edited.id, format, level.value)),
-          );
-        });
+      const id = session.edited.value?.id;
+      if (!id) return;
+      await notifications.attempt("export", async () =>
+        saveFile(
+          scope.value === "all"
+            ? await api.exportAll(format, level.value)
+            : await api.exportSegments(id, format, level.value),
+        ),
+      );
     });
   const scopes = [
     ["one", "this recording"],
@@ -62,14 +59,7 @@ export function ExportDialog({ close }: DialogProps) {
         rows={(session.state.value?.export_formats ?? []).map(({ name, suffix, help }) => ({
           key: name,
           cells: [
-            <Button
-              data-format={name}
-              disabled={busy !== ""}
-              onClick={() => void write(name)}
-              busy={busy === name}
-            >
-              {name}
-            </Button>,
+            <WorkButton name={name} busy={busy} data-format={name} work={() => write(name)} />,
             <span class="quiet">{suffix}</span>,
             help,
           ],

@@ -1,5 +1,5 @@
 /** List repetitions as loops, and play a loop as it will be exported, round after round. */
-import { useSignal } from "@preact/signals";
+import { useSignal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import * as THREE from "three";
 import { adaptColor, NO_COLOR } from "../../colors";
@@ -117,7 +117,7 @@ export function LoopsDialog({ close }: DialogProps) {
                   checked={chosen.value.has(each.number)}
                   onCheck={() => (chosen.value = toggleMember(chosen.value, each.number))}
                 >
-                  <Swatch color={store.getColor(segment) ?? NO_COLOR} /> {name}
+                  <Swatch color={store.getColor(segment)} /> {name}
                 </Checkbox>,
                 each.rank,
                 `${(100 * each.pose_m).toFixed(1)} cm`,
@@ -158,27 +158,23 @@ function getTitle(segment: Segment): string {
   return `${getSegmentName(segment)} at ${formatTime(segment.start_s, 2)}`;
 }
 
-interface Props {
-  loop: Loop;
-  name: string;
-  color: string;
-}
-
-export function LoopPlayer({ loop, name, color }: Props) {
+/** Play a loop round after round. */
+function LoopPlayer({ loop, name, color }: { loop: Loop; name: string; color: string }) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const place = useRef<HTMLSpanElement>(null);
   const scene = useRef<LoopScene | null>(null);
   const playing = useSignal(true);
-  const turned = useSignal(0);
-  const playhead = useRef(0);
+  const turned = useSignal(0); // turns of the camera, and other sizes
+  const playhead = useSignal(0);
 
   useEffect(() => {
     const element = canvas.current!;
-    const made = new LoopScene(element, () => (turned.value += 1));
-    scene.current = made;
+    const made = (scene.current = new LoopScene(element));
+    const { stage } = made;
+    const redraw = (): void => void (turned.value += 1);
+    stage.controls.addEventListener("change", redraw);
     const resize = new ResizeObserver(() => {
-      made.resize(element.clientWidth, element.clientHeight);
-      turned.value += 1;
+      stage.resize(element.clientWidth, element.clientHeight);
+      redraw();
     });
     resize.observe(element);
     return () => {
@@ -188,29 +184,25 @@ export function LoopPlayer({ loop, name, color }: Props) {
   }, [turned]);
 
   useEffect(() => {
-    const [stage, bar] = [scene.current!, place.current!];
-    stage.show(loop);
-    playhead.current = 0;
+    const shown = scene.current!;
+    shown.show(loop);
+    playhead.value = 0;
     playing.value = true;
-    const lasts = getRoundDuration(loop);
     const advance = ticker.add((seconds) => {
-      if (!playing.peek()) return;
-      playhead.current += seconds;
-      turned.value += 1;
+      if (playing.peek()) playhead.value += seconds;
     });
     const stop = drawOnChange(
-      () => void [turned.value, playing.value, theme.value],
+      () => void [turned.value, playing.value, playhead.value, theme.value],
       (since) => {
-        const moving = playing.peek();
-        stage.draw(playhead.current, adaptColor(color, theme.peek()), { moving, since });
-        bar.style.width = `${100 * ((playhead.current / lasts) % 1)}%`;
+        shown.draw(playhead.peek(), adaptColor(color, theme.peek()));
+        shown.stage.draw(playing.peek(), since);
       },
     );
     return () => {
       advance();
       stop();
     };
-  }, [loop, color, playing, turned]);
+  }, [loop, color, playing, turned, playhead]);
 
   return (
     <div class="loop-player" data-playing={playing.value}>
@@ -221,7 +213,7 @@ export function LoopPlayer({ loop, name, color }: Props) {
         aria-label={`${name}, round after round. Drag or press alt and an arrow key to look from another side.`}
         onKeyDown={(event) => turnByKey(event, scene.current)}
       />
-      <span class="round-done" ref={place} />
+      <RoundBar playhead={playhead} lasts={getRoundDuration(loop)} />
       <p>
         <IconButton
           icon={playing.value ? "pause" : "play"}
@@ -235,6 +227,11 @@ export function LoopPlayer({ loop, name, color }: Props) {
   );
 }
 
+/** Show how much of the round has been played. */
+function RoundBar({ playhead, lasts }: { playhead: Signal<number>; lasts: number }) {
+  return <span class="round-done" style={{ width: `${100 * ((playhead.value / lasts) % 1)}%` }} />;
+}
+
 /** Draw a loop on its own stage; the camera follows the figure. */
 class LoopScene {
   readonly stage: Stage;
@@ -242,9 +239,8 @@ class LoopScene {
   private figure: Figure | null = null;
   private pose = new Float32Array();
 
-  constructor(canvas: HTMLCanvasElement, redraw: () => void) {
+  constructor(canvas: HTMLCanvasElement) {
     this.stage = new Stage(canvas);
-    this.stage.controls.addEventListener("change", redraw);
   }
 
   /** Show another loop, seen from its side. */
@@ -264,27 +260,13 @@ class LoopScene {
     this.stage.lookAt(target, side, 1.25 * anatomy.size, 1.3 * anatomy.size);
   }
 
-  /** Draw the loop at a time in seconds. */
-  draw(
-    seconds: number,
-    color: string,
-    { moving, since }: { moving: boolean; since: number },
-  ): void {
-    if (!this.loop || !this.figure) return;
+  /** Pose and colour the figure for a time in seconds. */
+  draw(seconds: number, color: string): void {
     this.stage.setColors();
-    this.figure.setColors({
-      body: readColor("body"),
-      joint: color,
-      shadow: readColor("shadow"),
-    });
-    computeLoopPose(this.loop, seconds, this.pose);
-    this.figure.setPose(this.pose);
+    this.figure!.setColors({ body: readColor("body"), joint: color, shadow: readColor("shadow") });
+    computeLoopPose(this.loop!, seconds, this.pose);
+    this.figure!.setPose(this.pose);
     this.stage.moveTo(...this.getRootPosition());
-    this.stage.draw(moving, since);
-  }
-
-  resize(width: number, height: number): void {
-    this.stage.resize(width, height);
   }
 
   dispose(): void {

@@ -1,11 +1,12 @@
 /** Transfer labels from a knowledge base of the folder. */
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
 import { useStudio, type DialogProps } from "../context";
 import {
+  Button,
   Checkbox,
   Dialog,
   Field,
+  Form,
   Select,
   TextInput,
   toggleMember,
@@ -18,10 +19,8 @@ export function TransferDialog({ close }: DialogProps) {
   const chosen = useSignal("");
   const base = chosen.value || (bases[0]?.id ?? "");
   const threshold = useSignal("");
-  useEffect(() => void session.refresh(), [session]); // files may have been added
   const spread = useSignal(true);
-  const transfer = (event: Event): void => {
-    event.preventDefault();
+  const transfer = (): void => {
     const limit = Number.parseFloat(threshold.value);
     void session.edited.value?.edit({
       kind: "transfer",
@@ -39,7 +38,7 @@ export function TransferDialog({ close }: DialogProps) {
           recordings whose segments have names.
         </p>
       ) : (
-        <form onSubmit={transfer}>
+        <Form onSubmit={transfer}>
           <p class="quiet">
             A knowledge base is a file of movements that have names. Each primitive without a name
             takes that of the most similar one in it, if it is similar enough.
@@ -65,11 +64,11 @@ export function TransferDialog({ close }: DialogProps) {
             Give each cluster the name that most of its members got
           </Checkbox>
           <p class="actions">
-            <button type="submit" class="primary">
+            <Button type="submit" class="primary">
               Transfer labels
-            </button>
+            </Button>
           </p>
-        </form>
+        </Form>
       )}
       <NewKnowledge />
     </Dialog>
@@ -83,7 +82,6 @@ function NewKnowledge() {
   const excluded = useSignal<ReadonlySet<string>>(new Set());
   const name = useSignal("moves");
   const [busy, run] = useBusy();
-  useEffect(() => void session.refresh(), [session]); // names may have been added
   const makeKnowledge = (): Promise<boolean> =>
     session.notifications.attempt("knowledge", async () => {
       const recordings = named.map(({ id }) => id).filter((id) => !excluded.value.has(id));
@@ -94,12 +92,7 @@ function NewKnowledge() {
       await session.refresh();
     });
   return (
-    <form
-      onSubmit={(event) => {
-        event.preventDefault();
-        void run("knowledge", makeKnowledge);
-      }}
-    >
+    <Form onSubmit={() => void run("knowledge", makeKnowledge)}>
       <h2>Make a knowledge base of recordings with names</h2>
       {named.length === 0 && <p class="quiet">No recording of the folder has names yet.</p>}
       <div class="choices">
@@ -115,10 +108,14 @@ function NewKnowledge() {
       </div>
       <p class="actions">
         <TextInput aria-label="Name of the knowledge base" value={name} />
-        <button type="submit" disabled={busy !== "" || !name.value.trim() || !named.length}>
-          Make it {busy && <span class="busy" />}
-        </button>
+        <Button
+          type="submit"
+          disabled={busy !== "" || !name.value.trim() || !named.length}
+          busy={busy !== ""}
+        >
+          Make it
+        </Button>
       </p>
-    </form>
+    </Form>
   );
 }

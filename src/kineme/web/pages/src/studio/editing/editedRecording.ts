@@ -51,7 +51,6 @@ export class EditedRecording {
   private announcedRevision = 0;
   /** Id of a cancelled edit. */
   private cancelledName = "";
-  private readonly callbacks = new Map<string, () => void>();
   private readonly stopStoring: () => void;
 
   constructor(
@@ -98,10 +97,8 @@ export class EditedRecording {
       return Promise.resolve();
     }
     const queue = this.queue.peek();
-    const name = crypto.randomUUID();
-    if (made) this.callbacks.set(name, made);
     const base = queue.length ? null : this.confirmed.peek().revision;
-    this.queue.value = [...queue, { name, edit, base }];
+    this.queue.value = [...queue, { name: crypto.randomUUID(), edit, base, made }];
     return this.send();
   }
 
@@ -208,7 +205,7 @@ export class EditedRecording {
       return true;
     }
     if (first.isGone) return this.refuse(first, MISSING);
-    const { name, edit, base } = first;
+    const { name, edit, base, made } = first;
     const before = this.confirmed.peek();
     try {
       const revision = base ?? before.revision;
@@ -217,9 +214,8 @@ export class EditedRecording {
       batch(() => {
         this.queue.value = this.queue.peek().slice(1);
         this.show(now);
-        this.callbacks.get(name)?.();
+        made?.();
       });
-      this.callbacks.delete(name);
       this.report(edit, now.segmentation, edited.notes);
       return true;
     } catch (error) {
@@ -261,7 +257,6 @@ export class EditedRecording {
     const isStep = edit.kind === "undo" || edit.kind === "redo";
     const back = isStep ? -1 : findUndo(rest);
     this.queue.value = rest.filter((_, i) => i !== back);
-    this.callbacks.delete(name);
     if (isStep || back >= 0 || name === this.cancelledName) this.context.tell(reason, true);
     else
       this.context.warn(`Not made: ${describeEdit(edit, this.confirmed.peek().fps)} (${reason}).`);
@@ -330,13 +325,15 @@ function findUndo(later: readonly Turn[]): number {
 }
 
 /** An unconfirmed edit. */
-export interface Unsent {
+interface Unsent {
   name: string;
   edit: Edit;
   /** Revision it was made on; null: the result of the previous edit. */
   base: number | null;
   /** Whether a segment that it names no longer exists. */
   isGone?: boolean;
+  /** Called when the resulting table is shown; not stored. */
+  made?: (() => void) | undefined;
 }
 
 const PREFIX = "kineme.unsent";
@@ -360,14 +357,14 @@ function claimTab(name: string): Promise<boolean> {
   });
 }
 
-export function storeUnsent(folder: string, recording: string, unsent: Unsent[]): void {
+function storeUnsent(folder: string, recording: string, unsent: Unsent[]): void {
   const key = `${PREFIX}|${folder}|${recording}|${tab}`;
   if (unsent.length) localStorage.setItem(key, JSON.stringify(unsent));
   else localStorage.removeItem(key);
 }
 
 /** Return edits of this tab before a reload and of closed tabs; this tab now owns them. */
-export async function takeOverUnsent(folder: string, recording: string): Promise<Unsent[]> {
+async function takeOverUnsent(folder: string, recording: string): Promise<Unsent[]> {
   const { held: locks = [] } = await navigator.locks.query();
   const living = new Set(locks.map((lock) => lock.name?.slice(PREFIX.length + 1)));
   living.delete(tab);

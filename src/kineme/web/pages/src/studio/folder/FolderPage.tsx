@@ -10,11 +10,10 @@ import { OrderButton, useVisibleRows, type ColumnOrder } from "../../layout/tabl
 import { STATUSES, STATUS_ORDER, type Status } from "./recordingList";
 import { FolderProgress } from "../review/ReviewPanel";
 import { Button, Select, TextInput } from "../../layout/controls";
-import type { JSX } from "preact";
+import type { ComponentChildren } from "preact";
 import { countSegments, getSegmentKey, getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
 import { computeTally, getDoubts, getLowestConfidence, getStrip, type Tally } from "./briefTables";
-import type { Segments } from "../../messages";
 import type { FolderMember } from "./folder";
 
 const COVERED = ".layout > :not(.place-header)";
@@ -202,36 +201,40 @@ function SegmentAllButton() {
 }
 
 const MAX_PLACES = 2;
-const CELLS: Record<Column, (row: Row) => JSX.Element | string> = {
-  name: (row) => <Name row={row} />,
-  strip: (row) => <Strip row={row} />,
-  length: ({ table }) => (table ? formatTime(getLength(table), 0) : ""),
-  rate: ({ table }) => (table ? `${Number(table.fps.toFixed(2))} Hz` : ""),
-  activities: ({ activities }) => String(activities ?? ""),
-  primitives: ({ primitives }) => String(primitives ?? ""),
-  checked: ({ tally }) =>
-    tally ? (
-      <>
-        <progress max={tally.all} value={tally.checked} aria-hidden="true" />{" "}
-        {Math.floor((100 * tally.checked) / Math.max(tally.all, 1))} %
-      </>
-    ) : (
-      ""
-    ),
-  least: (row) => <LowestConfidence row={row} />,
-  notes: ({ comments }) => (comments ? String(comments) : ""),
-  status: ({ status }) => status,
-};
 
-interface FolderRowProps {
-  row: Row;
-  at: number;
-  top: number;
-  columns: readonly Column[];
-}
+/** Columns of the folder table: what a recording is ordered by, and what is shown of it. */
+const CELLS = {
+  name: [({ listing }) => listing.name, (row) => <Name row={row} />],
+  strip: [getLength, (row) => <Strip row={row} />],
+  length: [getLength, (row) => (row.table ? formatTime(getLength(row)!, 0) : "")],
+  rate: [
+    ({ table }) => table && table.fps,
+    ({ table }) => (table ? `${Number(table.fps.toFixed(2))} Hz` : ""),
+  ],
+  activities: [({ activities }) => activities, ({ activities }) => activities],
+  primitives: [({ primitives }) => primitives, ({ primitives }) => primitives],
+  checked: [
+    ({ tally }) => tally && tally.checked / Math.max(tally.all, 1),
+    ({ tally }) =>
+      tally && (
+        <>
+          <progress max={tally.all} value={tally.checked} aria-hidden="true" />{" "}
+          {Math.floor((100 * tally.checked) / Math.max(tally.all, 1))} %
+        </>
+      ),
+  ],
+  least: [({ least }) => least, (row) => <LowestConfidence row={row} />],
+  notes: [({ comments }) => comments || null, ({ comments }) => comments || null],
+  status: [({ status }) => STATUS_ORDER.indexOf(status), ({ status }) => status],
+} satisfies Record<
+  string,
+  [getKey: (row: Row) => string | number | null, render: (row: Row) => ComponentChildren]
+>;
+type Column = keyof typeof CELLS;
 
 /** Render a recording's row in the folder table. */
-function FolderRow({ row, at, top, columns }: FolderRowProps) {
+function FolderRow(props: { row: Row; at: number; top: number; columns: readonly Column[] }) {
+  const { row, at, top, columns } = props;
   const { session } = useStudio();
   const current = session.store.recording.value?.id === row.listing.id;
   return (
@@ -243,7 +246,7 @@ function FolderRow({ row, at, top, columns }: FolderRowProps) {
     >
       {columns.map((column) => (
         <span key={column} role={column === "name" ? "rowheader" : "cell"} class={`cell ${column}`}>
-          {CELLS[column](row)}
+          {CELLS[column][1](row)}
         </span>
       ))}
     </div>
@@ -299,19 +302,6 @@ function LowestConfidence({ row: { listing, table } }: { row: Row }) {
     </>
   );
 }
-
-/** Columns of the folder table. */
-type Column =
-  | "name"
-  | "strip"
-  | "length"
-  | "rate"
-  | "activities"
-  | "primitives"
-  | "checked"
-  | "least"
-  | "notes"
-  | "status";
 
 /** Titles, widths and tooltips. */
 export const COLUMNS: readonly {
@@ -404,7 +394,7 @@ export function createRow(member: FolderMember, status: Status): Row {
 /** Sort rows by a column; unknown values come last. */
 export function sortRows(rows: readonly Row[], by: Column, reverse: boolean): Row[] {
   const sign = reverse ? -1 : 1;
-  const keys = new Map(rows.map((row) => [row, getSortKey(row, by)]));
+  const keys = new Map<Row, string | number | null>(rows.map((row) => [row, CELLS[by][0](row)]));
   return [...rows].sort((a, b) => {
     const [left, right] = [keys.get(a)!, keys.get(b)!];
     if (left === null || right === null) return Number(left === null) - Number(right === null);
@@ -413,30 +403,7 @@ export function sortRows(rows: readonly Row[], by: Column, reverse: boolean): Ro
   });
 }
 
-/** Return a recording's duration in seconds. */
-function getLength({ n_frames, fps }: Segments): number {
-  return n_frames / fps;
-}
-
-function getSortKey(row: Row, by: Column): string | number | null {
-  const { listing, table, tally } = row;
-  switch (by) {
-    case "name":
-      return listing.name;
-    case "status":
-      return STATUS_ORDER.indexOf(row.status);
-    case "notes":
-      return row.comments || null;
-    case "least":
-    case "activities":
-    case "primitives":
-      return row[by];
-    case "length":
-    case "strip":
-      return table && getLength(table);
-    case "rate":
-      return table && table.fps;
-    case "checked":
-      return tally && tally.checked / Math.max(tally.all, 1);
-  }
+/** Return a recording's duration in seconds; null without a table. */
+function getLength({ table }: Row): number | null {
+  return table && table.n_frames / table.fps;
 }

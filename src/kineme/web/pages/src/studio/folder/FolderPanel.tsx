@@ -162,7 +162,7 @@ export function AddFiles() {
       {uploads.running.value.map(({ name, share }) => (
         <span class="upload" key={name}>
           <span>{name}</span>
-          <progress value={share} aria-label={`Sending ${name}`} />
+          <progress value={share.value} aria-label={`Sending ${name}`} />
         </span>
       ))}
     </>

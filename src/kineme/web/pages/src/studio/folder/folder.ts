@@ -1,9 +1,9 @@
 /** Combine tables of all recordings of the folder: those of this page, else the server's. */
-import { batch, computed, effect, signal, untracked } from "@preact/signals";
+import { batch, computed, effect, signal, untracked, type Signal } from "@preact/signals";
 import type { Listing, Segments } from "../../messages";
 import { countChecked } from "../../segments";
 import { delay, formatCount } from "../../util";
-import { Unreachable, explainError, type Refused } from "../server/api";
+import { Unreachable, describeUnchanged, explainError, type Refused } from "../server/api";
 import type { Session } from "../session";
 import { computeTally, unpackTable, type Tally } from "./briefTables";
 
@@ -145,11 +145,8 @@ export class NameOffer {
   readonly present = signal<Offer | null>(null);
   private lastNames: { id: string; names: Names } | null = null;
 
-  private readonly session: Session;
-
   constructor(private readonly folder: Folder) {
     const { session } = folder;
-    this.session = session;
     effect(() => {
       const { id, segmentation, finding } = session.edited.value?.confirmed.value ?? {};
       if (!id || !segmentation || finding) return;
@@ -167,25 +164,21 @@ export class NameOffer {
 
   /** Apply the name to all recordings; each can undo it. */
   async accept(): Promise<void> {
-    const { api, notifications, state } = this.session;
+    const { session } = this.folder;
+    const { api, notifications } = session;
     const offer = this.present.value;
     if (!offer) return;
     this.present.value = null;
     await notifications.attempt("offer", async () => {
-      const { tables, others, left } = await api.renameEverywhere(offer, this.isLibrary());
-      const kept = others
-        ? ` Another name stays with ${formatCount(others, "cluster")} there.`
-        : "";
-      const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
-      notifications.tell(
-        `“${offer.label}” in ${formatCount(tables, "saved table")} more.${kept}${lost}`,
-      );
-      if (state.value) await this.session.refresh();
+      const changed = await api.renameEverywhere(offer, this.isLibrary());
+      const tables = formatCount(changed.tables, "saved table");
+      notifications.tell(`“${offer.label}” in ${tables} more.${describeUnchanged(changed)}`);
+      if (session.state.value) await session.refresh();
     });
   }
 
   isLibrary(): boolean {
-    return this.session.state.value?.of_library ?? false;
+    return this.folder.session.state.value?.of_library ?? false;
   }
 
   /** Return whether other recordings may have the named cluster. */
@@ -204,17 +197,13 @@ function findRenamed(last: Names, names: Names): Omit<Offer, "recording"> | null
   const changed = [...all].filter((cluster) => (last[cluster] ?? "") !== (names[cluster] ?? ""));
   const [cluster] = changed;
   if (cluster === undefined || changed.length > 1) return null;
-  return {
-    cluster: Number(cluster),
-    before: last[cluster] ?? "",
-    label: names[cluster] ?? "",
-  };
+  return { cluster: Number(cluster), before: last[cluster] ?? "", label: names[cluster] ?? "" };
 }
 
 interface Upload {
   name: string;
   /** Sent share, 0 to 1. */
-  share: number;
+  share: Signal<number>;
 }
 
 export class Uploads {
@@ -226,23 +215,16 @@ export class Uploads {
   async add(files: readonly File[]): Promise<void> {
     const { session } = this;
     const ids: string[] = [];
-    const uploads = files.map((file) => ({ name: file.name, share: 0 }));
+    const uploads = files.map((file) => ({ file, name: file.name, share: signal(0) }));
     this.running.value = [...this.running.value, ...uploads];
-    for (const [i, file] of files.entries()) {
-      let upload = uploads[i]!;
-      const progress = (share: number): void => {
-        const now = { ...upload, share };
-        this.running.value = this.running.value.map((each) => (each === upload ? now : each));
-        upload = now;
-      };
+    for (const upload of uploads) {
+      const { file, name, share } = upload;
+      const about = `upload ${name}`;
       try {
-        ids.push((await session.api.upload(file, progress)).id);
-        session.notifications.clearProblem(`upload ${file.name}`);
+        ids.push((await session.api.upload(file, (sent) => (share.value = sent))).id);
+        session.notifications.clearProblem(about);
       } catch (error) {
-        session.notifications.reportProblem(
-          `${file.name}: ${explainError(error)}`,
-          `upload ${file.name}`,
-        );
+        session.notifications.reportProblem(`${name}: ${explainError(error)}`, about);
       }
       this.running.value = this.running.value.filter((each) => each !== upload);
     }

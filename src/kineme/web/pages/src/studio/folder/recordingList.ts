@@ -61,10 +61,6 @@ export class RecordingList {
     const isNamed = listing.name.toLowerCase().includes(this.search.value.trim().toLowerCase());
     return isNamed && (!wanted || this.getStatus(listing) === wanted);
   }
-
-  isChecked(listing: Listing): boolean {
-    return this.getStatus(listing) === "checked";
-  }
 }
 
 function computeStatus(of: Pick<Listing, "segments" | "checked" | "named" | "to_name">): Status {

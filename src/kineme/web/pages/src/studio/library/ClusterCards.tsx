@@ -180,20 +180,16 @@ function ClusterFigure(props: { page: LibraryPage; cluster: LibraryCluster }) {
   return <Figure sketches={props.page.sketches} span={span} cluster={cluster} />;
 }
 
-interface Props<Value> {
+/** Choose some entries of a list, at most `most`, for one action. */
+function ChoiceDialog<Value>(props: {
   title: string;
   say: string;
   action: string;
   choices: { value: Value; text: string; picture?: JSX.Element }[];
-  /** Maximum number of choices; all by default. */
   most?: number;
-  /** Performs the action; returns whether it succeeded. */
-  choose: (chosen: Value[]) => Promise<boolean>;
+  choose: (chosen: Value[]) => Promise<unknown>;
   close: () => void;
-}
-
-/** Choose some entries of a list for one action. */
-function ChoiceDialog<Value>(props: Props<Value>) {
+}) {
   const { title, say, action, choices, most = choices.length, choose, close } = props;
   const chosen = useSignal<ReadonlySet<Value>>(new Set());
   const n = chosen.value.size;

@@ -1,6 +1,6 @@
 /** Search by example and judge the hits. */
 import { useEffect, useRef } from "preact/hooks";
-import { Button, Checkbox, NameInput, NumberInput, Toggle } from "../../layout/controls";
+import { Button, Checkbox, Form, NameInput, NumberInput, Toggle } from "../../layout/controls";
 import { saveFile } from "../server/api";
 import { formatSeconds, getHitKey, toCsv, toJson, type LibraryPage } from "./libraryPage";
 import type { LibraryHit, Span } from "../../messages";
@@ -127,10 +127,9 @@ function SpanForm({ page }: { page: LibraryPage }) {
   const { start_s, stop_s, recording } = span;
   const valid = exists && start_s >= 0 && stop_s > start_s;
   return (
-    <form
+    <Form
       class="tools"
-      onSubmit={(event) => {
-        event.preventDefault();
+      onSubmit={() => {
         const given = page.span.value ?? span; // Enter also commits the focused field
         const title = `${given.recording} ${given.start_s} to ${given.stop_s} s`;
         if (valid) void page.startSearch({ title, like: [given], unlike: [] });
@@ -164,13 +163,13 @@ function SpanForm({ page }: { page: LibraryPage }) {
       <Checkbox checked={page.mirror.value} onCheck={(checked) => (page.mirror.value = checked)}>
         mirrored, too
       </Checkbox>
-      <button type="submit" class="primary" disabled={!valid}>
+      <Button type="submit" class="primary" disabled={!valid}>
         Find more like this
-      </button>
+      </Button>
       {page.question.value && (
         <Button onClick={() => void page.searchAgain()}>The last search again</Button>
       )}
-    </form>
+    </Form>
   );
 }
 
@@ -257,6 +256,9 @@ function HitCard({ page, hit }: { page: LibraryPage; hit: LibraryHit }) {
   );
 }
 
+/** Steps to the next hit. */
+const SIDEWAYS: Record<string, number> = { y: 1, n: 1, arrowright: 1, arrowleft: -1 };
+
 /** Listen to the keyboard and return a function that stops; `cards` contains the hits. */
 function listenToHitKeys(page: LibraryPage, cards: () => HTMLElement | null): () => void {
   const onKey = (event: KeyboardEvent): void => {
@@ -265,26 +267,15 @@ function listenToHitKeys(page: LibraryPage, cards: () => HTMLElement | null): ()
     const hit = page.hits.peek()[at];
     const key = event.key.toLowerCase();
     if (!hit) return;
-    if (key === "y" || key === "n") {
-      page.judge(hit, key === "y");
-      bringToFront(at + 1);
-    } else {
-      const by = getStep(key, cards()?.contains(event.target as Node) ?? false);
-      if (!by) return;
-      bringToFront(at + by);
-    }
+    // Up and down scroll the page unless a card has the focus.
+    const onCard = cards()?.contains(event.target as Node);
+    const steps = onCard ? { ...SIDEWAYS, arrowdown: 1, arrowup: -1 } : SIDEWAYS;
+    const by = steps[key];
+    if (by === undefined) return;
+    if (key === "y" || key === "n") page.judge(hit, key === "y");
+    const next = cards()?.children[at + by];
+    if (next instanceof HTMLElement) next.focus(); // the focus handler makes it the current hit
     event.preventDefault();
   };
-  const bringToFront = (at: number): void => {
-    const next = cards()?.children[at];
-    if (next instanceof HTMLElement) next.focus(); // the focus handler makes it the current hit
-  };
   return listen(window, { keydown: onKey });
-}
-
-/** Return the step of a key; up and down scroll the page unless a card has the focus. */
-function getStep(key: string, onCard: boolean): number {
-  const sideways: Record<string, number> = { arrowright: 1, arrowleft: -1 };
-  const across: Record<string, number> = { arrowdown: 1, arrowup: -1 };
-  return sideways[key] ?? (onCard ? across[key] : undefined) ?? 0;
 }

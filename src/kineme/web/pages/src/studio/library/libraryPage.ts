@@ -2,7 +2,7 @@
 import { formatCount } from "../../util";
 import { computed, signal } from "@preact/signals";
 import type { LibraryCluster, LibraryEdit, LibraryHit, LibraryState, Span } from "../../messages";
-import { Refused, explainError, type Api } from "../server/api";
+import { Refused, describeUnchanged, explainError, type Api } from "../server/api";
 import { Sketches } from "./Figure";
 
 /** Examples and counterexamples of a search. */
@@ -49,37 +49,28 @@ export class LibraryPage {
     this.sketches = new Sketches(api);
   }
 
-  async start(): Promise<void> {
+  async load(): Promise<void> {
     await this.attempt(async () => (this.state.value = await this.api.loadLibrary()));
-  }
-
-  /** Reload the library, unless a problem is shown. */
-  async refresh(): Promise<void> {
-    if (this.state.value && !this.problem.value) await this.start();
   }
 
   /** Save an edit; return whether that worked. */
   async edit(edit: LibraryEdit): Promise<boolean> {
-    const made = await this.attempt(async () => {
+    return this.attempt(async () => {
       this.state.value = await this.api.editLibrary(edit);
-    });
-    if (made) this.relabel();
-    else this.problem.value = `Not saved: ${this.problem.value}`;
-    return made;
+      this.hits.value = this.hits.value.map((hit) => ({
+        ...hit,
+        label: this.getClusterName(hit.cluster),
+      }));
+    }, "Not saved: ");
   }
 
   /** Write numbers and names to saved tables; with `names`, also replace other names. */
   async updateTables(names: boolean): Promise<void> {
     await this.attempt(async () => {
-      const { tables, others, left } = await this.api.updateTables({ names });
-      const kept = others
-        ? ` Another name stays with ${formatCount(others, "cluster")} in them.`
-        : "";
-      const lost = left.length ? ` Not changed: ${left.join("; ")}.` : "";
-      this.tablesNews.value = {
-        text: `Other numbers or names in ${formatCount(tables, "saved table")} now.${kept}${lost}`,
-        others,
-      };
+      const changed = await this.api.updateTables({ names });
+      const tables = formatCount(changed.tables, "saved table");
+      const text = `Other numbers or names in ${tables} now.${describeUnchanged(changed)}`;
+      this.tablesNews.value = { text, others: changed.others };
     });
   }
 
@@ -91,10 +82,9 @@ export class LibraryPage {
       const { named, left } = await this.api.nameHits({ name, hits: hits.map(toSpan) });
       const lost = left.length ? ` Not named: ${left.join("; ")}.` : "";
       this.news.value = `${named} of ${hits.length} named, in the tables beside their recordings.${lost}`;
-    });
+    }, "Not saved: ");
     this.naming.value = false;
-    if (!done) this.problem.value = `Not saved: ${this.problem.value}`;
-    else await this.searchAgain();
+    if (done) await this.searchAgain();
   }
 
   /** Start a new search and forget all verdicts. */
@@ -150,28 +140,20 @@ export class LibraryPage {
     if (mine === this.searchCount) this.searching.value = false;
   }
 
-  /** Update the hits' labels after an edit. */
-  private relabel(): void {
-    this.hits.value = this.hits.value.map((hit) => ({
-      ...hit,
-      label: this.getClusterName(hit.cluster),
-    }));
-  }
-
   private filterHits(verdict: boolean): LibraryHit[] {
     return [...this.verdicts.value.values()]
       .filter(({ right }) => right === verdict)
       .map(({ hit }) => hit);
   }
 
-  private async attempt(work: () => Promise<unknown>): Promise<boolean> {
+  private async attempt(work: () => Promise<unknown>, prefix = ""): Promise<boolean> {
     try {
       await work();
       this.problem.value = "";
       return true;
     } catch (error) {
       const newer = error instanceof Refused && error.status === 409;
-      if (!newer) this.problem.value = explainError(error);
+      if (!newer) this.problem.value = prefix + explainError(error);
       return false;
     }
   }

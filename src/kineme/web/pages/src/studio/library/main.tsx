@@ -122,6 +122,8 @@ function Recordings() {
 shareToken(api);
 document.title = "Library · kineme studio";
 render(<LibraryView />, document.getElementById("page")!);
-addEventListener("focus", () => void page.refresh());
+addEventListener("focus", () => {
+  if (page.state.value && !page.problem.value) void page.load();
+});
 watchFocus();
-void page.start();
+void page.load();

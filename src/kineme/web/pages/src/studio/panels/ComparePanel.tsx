@@ -1,4 +1,5 @@
 /** Show how well the result agrees with the compared one. */
+import type { ComponentChildren } from "preact";
 import { useStore } from "../../store";
 import type { Agreement, Comparison } from "../../messages";
 import { findSegmentAt, getLane, getSegmentName } from "../../segments";
@@ -27,13 +28,8 @@ export function ComparePanel() {
       </div>
     );
   return (
-    <div class="compare-panel">
-      <div class="panel-head">
-        <b class="name">{comparison.name}</b>
-        <span class="spacer" />
-        <Button onClick={() => session.comparisons.stop()}>Stop comparing</Button>
-      </div>
-      {(comparison.differences?.length ?? 0) > 0 && <Differences comparison={comparison} />}
+    <ComparedPanel title={comparison.name} stop={() => session.comparisons.stop()}>
+      {Boolean(comparison.differences?.length) && <Differences comparison={comparison} />}
       <Table
         class="scores number"
         rows={Object.entries(comparison.scores).map(([name, score]) => {
@@ -48,6 +44,19 @@ export function ComparePanel() {
         })}
       />
       <p class="quiet">Scores and differences are of the table as it was when you compared.</p>
+    </ComparedPanel>
+  );
+}
+
+function ComparedPanel(props: { title: string; stop: () => void; children: ComponentChildren }) {
+  return (
+    <div class="compare-panel">
+      <div class="panel-head">
+        <b class="name">{props.title}</b>
+        <span class="spacer" />
+        <Button onClick={props.stop}>Stop comparing</Button>
+      </div>
+      {props.children}
     </div>
   );
 }
@@ -65,15 +74,13 @@ function Differences({ comparison }: { comparison: Comparison }) {
   return <DifferenceTable caption="Where they differ" names={names} differences={differences} />;
 }
 
-interface Props {
+/** List where the results with these names differ; a click goes there. */
+function DifferenceTable(props: {
   caption: string;
-  /** Names of the compared results. */
   names: readonly string[];
   differences: readonly { start_s: number; stop_s: number; labels: readonly string[] }[];
-}
-
-/** List where results differ; a click goes there. */
-function DifferenceTable({ caption, names, differences }: Props) {
+}) {
+  const { caption, names, differences } = props;
   const store = useStore();
   const rows = differences.map(({ start_s, stop_s, labels }) => ({
     key: start_s,
@@ -105,12 +112,10 @@ function AgreementPanel({ agreement }: { agreement: Agreement }) {
   const { session } = useStudio();
   const here = session.people.recordingAgreement.value;
   return (
-    <div class="compare-panel">
-      <div class="panel-head">
-        <b class="name">{agreement.annotators.length} people</b>
-        <span class="spacer" />
-        <Button onClick={() => session.people.stop()}>Stop comparing</Button>
-      </div>
+    <ComparedPanel
+      title={`${agreement.annotators.length} people`}
+      stop={() => session.people.stop()}
+    >
       <p class="quiet">
         {agreement.by_names ? BY_NAMES : BY_MAPPING} 1 is equal; of kappa, 0 is what chance gives.
       </p>
@@ -129,7 +134,7 @@ function AgreementPanel({ agreement }: { agreement: Agreement }) {
         </p>
       ))}
       <p class="quiet">All this is of the labels as they were when you compared.</p>
-    </div>
+    </ComparedPanel>
   );
 }
 

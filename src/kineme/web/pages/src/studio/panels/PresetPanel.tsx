@@ -2,7 +2,7 @@
 import { signal, useSignal } from "@preact/signals";
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
-import type { Parameter, PresetChoice, Segments, Progress } from "../../messages";
+import type { Parameter, PresetChoice, Segments, Progress, State } from "../../messages";
 import type { EditedRecording } from "../editing/editedRecording";
 import { DetailSlider, Button, Select, Checkbox, NumberInput } from "../../layout/controls";
 import type { SegmentationChoice, Proposal } from "../editing/comparisons";
@@ -13,47 +13,37 @@ const showsAdvanced = signal(false);
 
 const PAUSE = 120; // milliseconds without a change before a preview is requested
 
-type Values = Record<string, number>;
-
 export function PresetPanel() {
   const { session } = useStudio();
   const state = session.state.value;
   const edited = session.edited.value;
-  if (!state || !edited) return null;
-  const signals = edited.confirmed.value.motion === null;
-  return (
-    <Presets
-      key={edited.id}
-      edited={edited}
-      presets={signals ? state.presets.map(toSignalPreset) : state.presets}
-      fallback={state.default_preset}
-      details={state.details}
-    />
-  );
+  return state && edited && <Presets key={edited.id} edited={edited} state={state} />;
 }
 
-interface Props {
-  edited: EditedRecording;
-  presets: PresetChoice[];
-  fallback: string;
-  details: number[];
-}
-
-function Presets({ edited, presets, fallback, details }: Props) {
+function Presets({ edited, state }: { edited: EditedRecording; state: State }) {
   const { session } = useStudio();
   const { draft } = session.comparisons;
   const keep = useSignal(true);
   const timer = useRef(0);
-  const { revision, segmentation: table } = edited.confirmed.value;
+  const { revision, segmentation: table, motion } = edited.confirmed.value;
+  // The lengths of parameters for signals are in another unit.
+  const presets =
+    motion === null
+      ? state.presets.map((each) => ({ ...each, parameters: each.signal_parameters }))
+      : state.presets;
   const proposal = session.comparisons.proposal.value;
   const busy = session.segmenting.value;
-  const used = readChoice(table, presets, fallback);
+  const used = readChoice(table, presets, state.default_preset);
   const { preset, values, detail } = draft.value ?? proposal?.choice ?? used;
   const choice = presets.find((each) => each.name === preset)!;
 
   /** Whether a preset produced the table; not if people made it or the run was cancelled. */
   const isFound = typeof table.provenance.preset === "string";
-  const isUsual = detail === 1 && choice.parameters.every((each) => isDefault(each, values));
+  const isUsual =
+    detail === 1 &&
+    choice.parameters.every(
+      ({ name, value, step }) => Math.abs((values[name] ?? value) - value) < step / 2,
+    );
 
   const requestPreview = useCallback(
     (next: SegmentationChoice, pause: number): void => {
@@ -78,14 +68,13 @@ function Presets({ edited, presets, fallback, details }: Props) {
     if (proposal && proposal.revision !== revision)
       requestPreview(draft.peek() ?? proposal.choice, 0);
   }, [proposal, revision, requestPreview, draft]);
-  const changeParameter = (parameter: Parameter, value: number): void => {
-    const { minimum, maximum } = parameter;
+  const changeParameter = ({ name, minimum, maximum }: Parameter, value: number): void => {
     if (!Number.isFinite(value)) return;
     const bounded = Math.min(Math.max(value, minimum), maximum);
-    requestPreview({ preset, values: { ...values, [parameter.name]: bounded }, detail }, PAUSE);
+    requestPreview({ preset, values: { ...values, [name]: bounded }, detail }, PAUSE);
   };
   const levels = {
-    all: proposal && !draft.value ? proposal.preview.details : details,
+    all: proposal && !draft.value ? proposal.preview.details : state.details,
     detail,
     choose: (next: number) => requestPreview({ preset, values, detail: next }, PAUSE),
   };
@@ -148,11 +137,6 @@ function Presets({ edited, presets, fallback, details }: Props) {
   );
 }
 
-/** Return a preset with the parameters for signals, whose lengths are in their own unit. */
-function toSignalPreset(choice: PresetChoice): PresetChoice {
-  return { ...choice, parameters: choice.signal_parameters };
-}
-
 /** Return the preset and values that produced a table, with defaults for missing ones. */
 function readChoice(
   table: Segments,
@@ -171,12 +155,8 @@ function readChoice(
   return { preset: choice.name, values, detail: typeof detail === "number" ? detail : 1 };
 }
 
-function getDefaults(choice: PresetChoice): Values {
+function getDefaults(choice: PresetChoice): SegmentationChoice["values"] {
   return Object.fromEntries(choice.parameters.map(({ name, value }) => [name, value]));
-}
-
-function isDefault({ name, value, step }: Parameter, values: Values): boolean {
-  return Math.abs((values[name] ?? value) - value) < step / 2;
 }
 
 /** Show the consequences of a previewed segmentation, and apply or discard it. */
@@ -244,8 +224,8 @@ function ParameterSlider(props: {
         aria-label={unit ? `${title} in ${unit}` : title}
         min={minimum}
         max={maximum}
-        step={roundToThreeDigits(step)}
-        value={roundToThreeDigits(value)}
+        step={Number(step.toFixed(3))}
+        value={Number(value.toFixed(3))}
         onNumber={change}
       />
       <input
@@ -259,10 +239,6 @@ function ParameterSlider(props: {
       />
     </div>
   );
-}
-
-function roundToThreeDigits(value: number): number {
-  return Number(value.toFixed(3));
 }
 
 const POLL_INTERVAL = 400; // milliseconds between requests, and before the first

@@ -1,10 +1,10 @@
 /** Set how a recording is read where its file does not say or is wrong. */
-import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import type { TargetedEvent } from "preact";
 import { formatPerson } from "../../recordingData";
 import { useStudio } from "../context";
-import { Button, Field } from "../../layout/controls";
+import { Button, Field, useBusy } from "../../layout/controls";
+import type { ReadRequest } from "../../messages";
 
 const UNITS = ["m", "cm", "mm", "inch", "cmu"];
 const AXES = ["x", "y", "z", "-x", "-y", "-z"];
@@ -14,7 +14,7 @@ export function ReadingPanel() {
   const { value: recording } = session.store.recording;
   const { value: unread } = session.unread;
   const form = useRef<HTMLFormElement>(null);
-  const busy = useSignal(false);
+  const [busy, run] = useBusy();
   const id = unread?.id ?? recording?.id;
   const known = (!unread && recording?.read_options) || {};
   const takes = (!unread && recording?.takes) || [];
@@ -28,23 +28,16 @@ export function ReadingPanel() {
   if (!id) return null;
   const isOpen =
     unread !== null || Object.keys(known).length > 0 || takes.length > 1 || people.length > 0;
-  const read = async (chosen = person, everybody = false): Promise<void> => {
-    const fields = new FormData(form.current!);
-    const text = (name: string): string => {
-      const value = fields.get(name);
-      return typeof value === "string" ? value.trim() : "";
-    };
-    busy.value = true;
+  const read = (chosen = person, everybody = false): Promise<void> => {
+    const fields = Object.fromEntries(new FormData(form.current!)) as Record<string, string>;
     const given = {
-      person: people.length ? chosen : text("person"),
-      take: text("take"),
-      fps: Number(text("fps")),
-      unit: text("unit"),
-      up: text("up"),
+      ...fields, // named as the options
+      fps: Number(fields["fps"]),
+      person: people.length ? chosen : fields["person"]?.trim(),
     };
-    const options = Object.fromEntries(Object.entries(given).filter(([, value]) => value));
-    await session.readAs(id, { options, everybody });
-    busy.value = false;
+    const stated = Object.entries(given).filter(([, value]) => value);
+    const options = Object.fromEntries(stated) as ReadRequest["options"];
+    return run("reading", () => session.readAs(id, { options, everybody }));
   };
   return (
     <details class="reading-panel" key={`${id} ${unread !== null}`} open={isOpen}>
@@ -94,13 +87,14 @@ export function ReadingPanel() {
         </div>
         {!(unread && people.length > 0) && (
           <p class="actions">
-            <button
+            <Button
               type="submit"
-              disabled={busy.value}
+              disabled={busy !== ""}
+              busy={busy !== ""}
               title="Tables are made anew; those before are kept in History"
             >
-              Read again {busy.value && <span class="busy" />}
-            </button>
+              Read again
+            </Button>
           </p>
         )}
       </form>

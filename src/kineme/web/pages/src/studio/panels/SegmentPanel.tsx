@@ -2,13 +2,14 @@
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { useStudio } from "../context";
 import { getTarget } from "../editing/edits";
-import { NO_COLOR, getClusterColor } from "../../colors";
+import { getClusterColor } from "../../colors";
 import type { Kind, Segment, Segments } from "../../messages";
 import {
   Button,
   Checkbox,
   CloseButton,
   Field,
+  Form,
   NameInput,
   Select,
   Swatch,
@@ -16,7 +17,7 @@ import {
   useDraft,
 } from "../../layout/controls";
 import { getDuration, getSegmentName } from "../../segments";
-import { getConfidence } from "../../confidence";
+import { Confidence } from "../../confidence";
 import { formatCount } from "../../util";
 import type { Session } from "../session";
 import { useSignal } from "@preact/signals";
@@ -35,11 +36,11 @@ export function SegmentPanel() {
   const called = table?.cluster_names[segment.cluster] ?? "";
   const label = segment.label !== called ? segment.label : "";
   const chosen = store.selected.value === segment;
-  const confidence = table && getConfidence(table, segment);
+  const confidence = table && new Confidence(table, segment);
   return (
     <div class="segment-panel">
       <p class="times number">
-        <Swatch color={store.getColor(segment) ?? NO_COLOR} /> <b>{getSegmentName(segment)}</b>{" "}
+        <Swatch color={store.getColor(segment)} /> <b>{getSegmentName(segment)}</b>{" "}
         <span class="quiet">
           {segment.level} {chosen ? "selected" : "at the playhead"}
         </span>
@@ -210,9 +211,8 @@ function SharedLabels() {
           </span>
         ))}
       </div>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
+      <Form
+        onSubmit={() => {
           const label = name.value.trim();
           name.value = "";
           if (label) void saveLabels([...labels, label]);
@@ -224,8 +224,8 @@ function SharedLabels() {
           value={name}
           onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
         />
-        <button type="submit">Add</button>
-      </form>
+        <Button type="submit">Add</Button>
+      </Form>
     </section>
   );
 }

@@ -1,8 +1,9 @@
 /** Show what to review next and the progress. */
 import type { ComponentChildren } from "preact";
 import { useStudio } from "../context";
-import { getClusterColor, NO_COLOR } from "../../colors";
-import type { Level } from "../../messages";
+import { getClusterColor } from "../../colors";
+import type { Segment } from "../../messages";
+import type { Place } from "./review";
 import { getSegmentKey, getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
 import { countProgress, type Doubt } from "../../confidence";
@@ -36,8 +37,8 @@ export function ReviewPanel() {
   return (
     <div class="review-panel">
       {scope}
-      <Progress level="activity" title="Activities" of={countProgress(table, "activity")} />
-      <Progress level="primitive" title="Primitives" of={countProgress(table, "primitive")} />
+      <Progress title="Activities" of={countProgress(table, "activity")} />
+      <Progress title="Primitives" of={countProgress(table, "primitive")} />
       <p class="actions">
         <ReviewButtons />
       </p>
@@ -48,18 +49,12 @@ export function ReviewPanel() {
             ? "“Next” goes to where confidence is lowest."
             : "Every segment of this recording is checked."}
       </p>
-      <ol class="doubts">
-        {doubts.slice(0, MAX_ROWS).map((doubt) => (
-          <DoubtItem
-            key={getSegmentKey(doubt.segment)}
-            doubt={doubt}
-            color={store.getColor(doubt.segment) ?? NO_COLOR}
-            current={doubt === present}
-            go={() => review.goTo(doubt)}
-          />
-        ))}
-      </ol>
-      {doubts.length > MAX_ROWS && <p class="quiet note">and {doubts.length - MAX_ROWS} more</p>}
+      <DoubtList
+        places={doubts.map((doubt) => ({ doubt }))}
+        isCurrent={({ doubt }) => doubt === present}
+        getColor={(segment) => store.getColor(segment)}
+        go={({ doubt }) => store.showSegment(doubt.segment)}
+      />
     </div>
   );
 }
@@ -68,64 +63,60 @@ export function ReviewPanel() {
 function FolderReview({ scope }: { scope: ComponentChildren }) {
   const { review } = useStudio();
   const { folder, queue } = review;
-  const { value: places } = queue.places;
   const without = folder.unsegmented.value.length;
   return (
     <div class="review-panel">
       {scope}
-      <ol class="doubts">
-        {places.slice(0, MAX_ROWS).map((place) => (
-          <DoubtItem
-            key={`${place.id} ${getSegmentKey(place.doubt.segment)}`}
-            doubt={place.doubt}
-            color={getClusterColor(place.doubt.segment.cluster)}
-            current={place === queue.current.value}
-            go={() => void queue.goTo(place)}
-          >
-            <span class="of quiet">{place.recording}</span>
-          </DoubtItem>
-        ))}
-      </ol>
-      {places.length > MAX_ROWS && <p class="quiet note">and {places.length - MAX_ROWS} more</p>}
+      <DoubtList
+        places={queue.places.value}
+        isCurrent={(place) => place === queue.current.value}
+        getColor={({ cluster }) => getClusterColor(cluster)}
+        go={(place) => void queue.goTo(place)}
+      />
       {without > 0 && <p class="quiet note">{without} recordings are not segmented yet</p>}
     </div>
   );
 }
 
-interface ItemProps {
-  doubt: Doubt;
-  color: string;
-  current: boolean;
-  go: () => void;
-  children?: ComponentChildren;
-}
-
-/** Show a segment to review; a click goes there. */
-function DoubtItem({ doubt, color, current, go, children }: ItemProps) {
-  const { segment, confidence } = doubt;
+/** List segments to review; a click goes there. */
+function DoubtList<Item extends Partial<Place> & { doubt: Doubt }>(props: {
+  places: readonly Item[];
+  isCurrent: (place: Item) => boolean;
+  getColor: (segment: Segment) => string | null;
+  go: (place: Item) => void;
+}) {
+  const { places, isCurrent, getColor, go } = props;
   return (
-    <li>
-      <Button
-        class="plain"
-        aria-current={current ? "true" : undefined}
-        title={confidence.why}
-        onClick={go}
-      >
-        <Swatch color={color} />
-        <span class="name">
-          {getSegmentName(segment)} <span class="quiet">{segment.level}</span>
-        </span>
-        <span class="number quiet">{formatTime(segment.start_s, 2)}</span>
-        <span class="number">{confidence.short || "–"}</span>
-        {children}
-      </Button>
-    </li>
+    <>
+      <ol class="doubts">
+        {places.slice(0, MAX_ROWS).map((place) => {
+          const { segment, confidence } = place.doubt;
+          return (
+            <li key={`${place.id} ${getSegmentKey(segment)}`}>
+              <Button
+                class="plain"
+                aria-current={isCurrent(place) ? "true" : undefined}
+                title={confidence.why}
+                onClick={() => go(place)}
+              >
+                <Swatch color={getColor(segment)} />
+                <span class="name">
+                  {getSegmentName(segment)} <span class="quiet">{segment.level}</span>
+                </span>
+                <span class="number quiet">{formatTime(segment.start_s, 2)}</span>
+                <span class="number">{confidence.short || "–"}</span>
+                {place.recording && <span class="of quiet">{place.recording}</span>}
+              </Button>
+            </li>
+          );
+        })}
+      </ol>
+      {places.length > MAX_ROWS && <p class="quiet note">and {places.length - MAX_ROWS} more</p>}
+    </>
   );
 }
 
-function Progress(props: { level: Level; title: string; of: [number, number] }) {
-  const { title, of } = props;
-  const [checked, all] = of;
+function Progress({ title, of: [checked, all] }: { title: string; of: [number, number] }) {
   if (!all) return null;
   return (
     <p class="progress">
@@ -202,13 +193,9 @@ export function FolderProgress({ tally }: { tally: Tally }) {
         class="number"
         title="Segments that nobody checked and that are more probably wrong than right"
       >
-        {formatInteger(checked)} of {formatInteger(all)} checked; {formatInteger(doubtful)} of the
-        others below 50 %
+        {checked.toLocaleString("en")} of {all.toLocaleString("en")} checked;{" "}
+        {doubtful.toLocaleString("en")} of the others below 50 %
       </span>
     </p>
   );
-}
-
-function formatInteger(n: number): string {
-  return n.toLocaleString("en");
 }

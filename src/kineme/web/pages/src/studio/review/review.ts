@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import type { Segment, Segments } from "../../messages";
 import type { Editor } from "../editing/editor";
 import { Folder, NameOffer } from "../folder/folder";
-import { findRow, getSegmentKey, findIndexAt } from "../../segments";
+import { findRow, findSegmentAt, getLane, getSegmentKey } from "../../segments";
 import type { Session } from "../session";
 import { listDoubts, type Doubt } from "../../confidence";
 import { getDoubts } from "../folder/briefTables";
@@ -21,10 +21,11 @@ export class Review {
   /** The current doubt; null once the playhead has left it. */
   readonly present = computed(() => {
     const target = this.editor.segment.value;
-    return this.doubts.value.find(({ segment }) => isSame(segment, target)) ?? null;
+    const key = target && getSegmentKey(target);
+    return this.doubts.value.find(({ segment }) => getSegmentKey(segment) === key) ?? null;
   });
-  /** Keys of places that were skipped; these come last. */
-  private readonly passed = signal(new Set<string>());
+  /** Keys of segments that were skipped; these come last. */
+  private readonly passed = new Set<string>();
 
   constructor(
     private readonly session: Session,
@@ -49,19 +50,15 @@ export class Review {
     const several = (session.state.value?.recordings.length ?? 0) > 1;
     if (!session.store.recording.value && several) return this.setEverywhere(true);
     const { doubts, present } = this;
-    if (present.value) this.passed.value.add(getSegmentKey(present.value.segment));
-    let next = doubts.value.find(({ segment }) => !this.passed.value.has(getSegmentKey(segment)));
+    if (present.value) this.passed.add(getSegmentKey(present.value.segment));
+    let next = doubts.value.find(({ segment }) => !this.passed.has(getSegmentKey(segment)));
     if (!next) {
       await session.edited.value?.waitUntilSent(); // the segment just checked is no longer in doubt
-      this.passed.value.clear();
+      this.passed.clear();
       next = doubts.value.find((doubt) => doubt !== present.value) ?? doubts.value[0];
     }
-    if (next) this.goTo(next);
-    else this.session.notifications.tell("Every segment of this recording is checked.");
-  }
-
-  goTo({ segment }: Doubt): void {
-    this.session.store.showSegment(segment);
+    if (next) session.store.showSegment(next.segment);
+    else session.notifications.tell("Every segment of this recording is checked.");
   }
 
   /** Mark the current segment as checked and go to the next. */
@@ -84,22 +81,14 @@ export class Review {
   }
 }
 
-function isSame(a: Segment, b: Segment | undefined): boolean {
-  return b !== undefined && getSegmentKey(a) === getSegmentKey(b);
-}
-
 const PREFETCH_COUNT = 2; // recordings that the server opens in advance
+const PREFETCH_PLACES = 12; // places that they are taken from
 
 /** A segment to review, in a recording of the folder. */
 export interface Place {
   id: string;
   recording: string;
   doubt: Doubt;
-}
-
-interface Key {
-  id: string;
-  doubt: Pick<Doubt, "segment">;
 }
 
 export class FolderQueue {
@@ -112,7 +101,7 @@ export class FolderQueue {
   /** The current place, as it was before any edit. */
   readonly current = signal<Place | null>(null);
   /** Keys of places that were skipped; these come last. */
-  private readonly passed = signal(new Set<string>());
+  private readonly passed = new Set<string>();
   private readonly prepared = new Set<string>();
 
   constructor(private readonly folder: Folder) {}
@@ -126,12 +115,12 @@ export class FolderQueue {
     if (!this.listUpcoming().length) {
       // The segment just checked is no longer in doubt.
       await folder.session.edited.value?.waitUntilSent();
-      this.passed.value.clear();
+      this.passed.clear();
     }
     const [next, ...after] = this.listUpcoming();
     if (next) {
       await this.goTo(next);
-      this.prepare(after);
+      this.prepare(after.slice(0, PREFETCH_PLACES));
     } else {
       this.current.value = null;
       folder.session.notifications.tell("Every segment of every recording is checked.");
@@ -159,17 +148,16 @@ export class FolderQueue {
     const { current } = this;
     const { recording, target } = this.folder.session.store;
     if (!current.value) return;
-    this.passed.value.add(getPlaceKey(current.value));
-    if (target.value && recording.value?.id === current.value.id)
-      this.passed.value.add(
-        getPlaceKey({ id: current.value.id, doubt: { segment: target.value } }),
-      );
+    const { id, doubt } = current.value;
+    this.passed.add(getPlaceKey(id, doubt.segment));
+    if (target.value && recording.value?.id === id) this.passed.add(getPlaceKey(id, target.value));
   }
 
-  /** Return the next places that were not skipped. */
+  /** Return the places that were not skipped. */
   private listUpcoming(): Place[] {
-    const { value: passed } = this.passed;
-    return takeFirst(this.places.value, (each) => !passed.has(getPlaceKey(each)));
+    return this.places.value.filter(
+      ({ id, doubt }) => !this.passed.has(getPlaceKey(id, doubt.segment)),
+    );
   }
 
   /** Let the server open the next recordings. */
@@ -189,31 +177,16 @@ export class FolderQueue {
 const kept = new WeakMap<Segments, Place[]>();
 
 function listPlaces(id: string, recording: string, table: Segments): Place[] {
-  let found = kept.get(table);
-  if (!found) {
-    found = getDoubts(table).map((doubt) => ({ id, recording, doubt }));
-    kept.set(table, found);
-  }
+  const found = kept.get(table) ?? getDoubts(table).map((doubt) => ({ id, recording, doubt }));
+  kept.set(table, found);
   return found;
 }
 
-/** Return the first few places for which `holds` is true. */
-function takeFirst(places: readonly Place[], holds: (place: Place) => boolean): Place[] {
-  const found: Place[] = [];
-  for (const place of places) {
-    if (holds(place)) found.push(place);
-    if (found.length > 12) break;
-  }
-  return found;
-}
-
-/** Return a key by level and start, which stays when the end changes. */
-function getPlaceKey({ id, doubt: { segment } }: Key): string {
+function getPlaceKey(id: string, segment: Segment): string {
   return `${id} ${getSegmentKey(segment)}`;
 }
 
-/** Return the current segment that starts there, else the one that contains the frame. */
-function findPresent({ segments }: Segments, { level, start_frame }: Segment): Segment {
-  const lane = segments.filter((each) => each.level === level);
-  return lane[Math.max(findIndexAt(lane, start_frame), 0)] ?? segments[0]!;
+/** Return the current segment that contains the start of another one. */
+function findPresent(table: Segments, { level, start_frame }: Segment): Segment {
+  return findSegmentAt(getLane(table, level), start_frame) ?? table.segments[0]!;
 }

@@ -4,6 +4,7 @@
  */
 import type * as messages from "../../messages";
 import type { RecordingData } from "../../recordingData";
+import { formatCount } from "../../util";
 import { buildAddress, writeToken, type PathParts, type Query } from "./address";
 import type { GetPath, PostPath } from "./paths";
 
@@ -289,6 +290,12 @@ export function needsPoses(error: unknown): boolean {
 /** Return a message for anything that was thrown. */
 export function explainError(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
+}
+
+/** Describe what a change of saved tables left as it was; empty if nothing. */
+export function describeUnchanged({ others, left }: messages.TablesChanged): string {
+  const kept = others ? ` Another name stays with ${formatCount(others, "cluster")} there.` : "";
+  return kept + (left.length ? ` Not changed: ${left.join("; ")}.` : "");
 }
 
 /** Return the file name of a Content-Disposition header, the UTF-8 form first; empty if none. */

@@ -2,8 +2,6 @@
 import { formatCount } from "../../util";
 import { computed, signal, useSignal, useSignalEffect, type Signal } from "@preact/signals";
 import { useMemo, useRef } from "preact/hooks";
-import { useStore } from "../../store";
-import { NO_COLOR } from "../../colors";
 import { findRow, getDuration, getSegmentName } from "../../segments";
 import { formatTime } from "../../view";
 import {
@@ -16,7 +14,15 @@ import {
   type Row,
 } from "./rows";
 import { OrderButton, useVisibleRows, type ColumnOrder } from "../../layout/tables";
-import { Button, Select, Swatch, TextInput, toggleMember, useBusy } from "../../layout/controls";
+import {
+  Button,
+  Form,
+  Select,
+  Swatch,
+  TextInput,
+  toggleMember,
+  useBusy,
+} from "../../layout/controls";
 import { useStudio } from "../context";
 import type { ByHand } from "../../messages";
 import { getTarget } from "../editing/edits";
@@ -31,7 +37,8 @@ const COLUMNS: readonly (readonly [Order, string])[] = [
 ];
 
 export function SegmentTable() {
-  const store = useStore();
+  const { session, view } = useStudio();
+  const { store } = session;
   const filter = useSignal<Filter>(NO_FILTER);
   const order = useSignal<ColumnOrder<Order>>(["start", false]);
   const chosen = useSignal<ReadonlySet<number>>(new Set());
@@ -113,7 +120,7 @@ export function SegmentTable() {
               key={row.number}
               row={row}
               at={from + i}
-              color={store.getColor(row.segment) ?? NO_COLOR}
+              color={store.getColor(row.segment)}
               chosen={chosen.value.has(row.number)}
               go={chooseRow}
             />
@@ -129,7 +136,13 @@ export function SegmentTable() {
           {formatCount(rows.value.length, "segment")}
           {many.length > 0 && `, ${many.length} chosen`}
         </p>
-        <LoopsButton />
+        <Button
+          disabled={!session.edited.value || !store.recording.value?.motion}
+          title="Which repetitions make good loops: seam, sliding feet, turn and speed"
+          onClick={() => view.show("loops")}
+        >
+          Loops by quality…
+        </Button>
       </div>
     </div>
   );
@@ -138,7 +151,7 @@ export function SegmentTable() {
 function TableRow(props: {
   row: Row;
   at: number;
-  color: string;
+  color: string | null;
   chosen: boolean;
   go: (at: number, many: "one" | "range" | "more") => void;
 }) {
@@ -307,9 +320,8 @@ function RowActions({ rows }: { rows: Row[] }) {
   const segments = rows.map(({ segment }) => segment);
   return (
     <div class="table-actions">
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
+      <Form
+        onSubmit={() => {
           const label = name.value.trim();
           const edits = segments.map((each): ByHand => {
             return { kind: "name_segment", ...getTarget(each), label };
@@ -318,8 +330,8 @@ function RowActions({ rows }: { rows: Row[] }) {
         }}
       >
         <TextInput aria-label="Name for all chosen" placeholder="name" value={name} />
-        <button type="submit">Name {rows.length}</button>
-      </form>
+        <Button type="submit">Name {rows.length}</Button>
+      </Form>
       <Button
         disabled={!merges.length}
         title="Neighbours become one segment"
@@ -365,19 +377,5 @@ function RowActions({ rows }: { rows: Row[] }) {
         Loops…
       </Button>
     </div>
-  );
-}
-
-/** Open the list of loops. */
-function LoopsButton() {
-  const { session, view } = useStudio();
-  return (
-    <Button
-      disabled={!session.edited.value || !session.store.recording.value?.motion}
-      title="Which repetitions make good loops: seam, sliding feet, turn and speed"
-      onClick={() => view.show("loops")}
-    >
-      Loops by quality…
-    </Button>
   );
 }

@@ -1,10 +1,10 @@
 /** Filter and sort the rows of the segment table. Pure functions. */
 import type { Level, Segment, Segments } from "../../messages";
 import { compareLevel, compareTime, getDuration, getSegmentName } from "../../segments";
-import { getConfidence, type Confidence } from "../../confidence";
+import { Confidence } from "../../confidence";
 
 /** Sortable columns. */
-export type Order = "start" | "duration" | "name" | "cluster" | "confidence";
+export type Order = "start" | "duration" | "name" | "confidence";
 
 export interface Filter {
   level: Level | "";
@@ -38,7 +38,7 @@ export interface Row {
 
 export function listRows(table: Segments, filter: Filter, order: Order, down: boolean): Row[] {
   const rows = table.segments
-    .map((segment, number) => ({ segment, number, confidence: getConfidence(table, segment) }))
+    .map((segment, number) => ({ segment, number, confidence: new Confidence(table, segment) }))
     .filter((row) => matchesFilter(row, filter));
   const sign = down ? -1 : 1;
   const compare = COMPARE[order];
@@ -94,6 +94,5 @@ const COMPARE: Record<Order, (a: Row, b: Row) => number> = {
   start: (a, b) => compareTime(a.segment, b.segment),
   duration: (a, b) => getDuration(a.segment) - getDuration(b.segment),
   name: (a, b) => getSegmentName(a.segment).localeCompare(getSegmentName(b.segment)),
-  cluster: (a, b) => a.segment.cluster - b.segment.cluster,
   confidence: (a, b) => (a.confidence.value ?? 2) - (b.confidence.value ?? 2),
 };
