@@ -35,9 +35,9 @@ class SceneNode:
 
     name: str
     parent: int  # -1 for none; parents come before their children
-    bone: bool  # whether the file marks it as a bone
-    geometry: bool  # whether it carries a mesh, a camera or a light
-    animated: bool  # whether the chosen animation moves it
+    bone: bool = False  # whether the file marks it as a bone
+    geometry: bool = False  # whether it carries a mesh, a camera or a light
+    animated: bool = False  # whether the chosen animation moves it
     end: bool = False  # whether it ends a limb if it is a leaf without rotations
 
 
@@ -144,31 +144,6 @@ def _find_take(names: Sequence[str], name: str) -> int | None:
     return None
 
 
-def find_scene_joints(
-    parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
-) -> list[bool]:
-    """Return whether each node is a joint: a bone, between two bones, or a free end below one.
-
-    ``free`` nodes carry no geometry.
-    """
-    joints = list(bones)
-    has_bone_above = [False] * len(parents)
-    for node, parent in enumerate(parents):
-        has_bone_above[node] = parent >= 0 and (has_bone_above[parent] or bones[parent])
-    has_bone_below, has_only_free_below = list(bones), list(free)
-    # Process children before parents.
-    for node in range(len(parents) - 1, -1, -1):
-        joints[node] = bones[node] or (
-            has_bone_above[node] and (has_bone_below[node] or has_only_free_below[node])
-        )
-        if (parent := parents[node]) >= 0:
-            has_bone_below[parent] |= has_bone_below[node]
-            has_only_free_below[parent] &= has_only_free_below[node]
-    for node, parent in enumerate(parents):  # drop nodes below those that were dropped
-        joints[node] &= bones[node] or (parent >= 0 and joints[parent])
-    return joints
-
-
 def is_end(name: str) -> bool:
     """Return whether a leaf of this name ends a limb, like ``Head_end`` and ``HeadNub``."""
     return _END.search(name) is not None
@@ -179,19 +154,22 @@ def _find_skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
     bones = [node.bone for node in nodes]
     if not any(bones):
         bones = [node.animated and not node.geometry for node in nodes]
-    parents = [node.parent for node in nodes]
-    joints = find_scene_joints(parents, bones, [not node.geometry for node in nodes])
+    has_bone_below, has_no_geometry = list(bones), [not node.geometry for node in nodes]
+    # Process children before parents.
+    for j in range(len(nodes) - 1, -1, -1):
+        if (parent := nodes[j].parent) >= 0:
+            has_bone_below[parent] |= has_bone_below[j]
+            has_no_geometry[parent] &= has_no_geometry[j]
     skeletons: list[list[int]] = []
     skeleton_of: dict[int, list[int]] = {}
-    for j, joint in enumerate(joints):
-        if not joint:
-            continue
-        if nodes[j].parent in skeleton_of:
-            skeleton_of[j] = skeleton_of[nodes[j].parent]
-        else:
-            skeleton_of[j] = []
-            skeletons.append(skeleton_of[j])
-        skeleton_of[j].append(j)
+    for j, node in enumerate(nodes):
+        # Below a joint, nodes between two bones and the ends of limbs are joints as well.
+        skeleton = skeleton_of.get(node.parent)
+        if bones[j] or (skeleton is not None and (has_bone_below[j] or has_no_geometry[j])):
+            if skeleton is None:
+                skeletons.append(skeleton := [])
+            skeleton.append(j)
+            skeleton_of[j] = skeleton
     return skeletons
 
 

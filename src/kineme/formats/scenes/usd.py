@@ -256,22 +256,13 @@ def _list_nodes(
     for skeleton in skeletons:
         carrier = len(nodes)
         name = skeleton.prim.GetParent().GetName() or skeleton.prim.GetName()
-        nodes.append(SceneNode(name, -1, bone=False, geometry=False, animated=False))
+        nodes.append(SceneNode(name, -1))
         for j, (joint, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
             owners[len(nodes)] = skeleton, carrier + 1
             # Parents are relative to the first joint; joints without parent are below the carrier.
             parent_node = carrier if parent < 0 else carrier + 1 + parent
-            bound = bool(skeleton.bound)
-            nodes.append(
-                SceneNode(
-                    joint,
-                    parent_node,
-                    bone=True,
-                    geometry=False,
-                    animated=bound,
-                    end=skeleton.is_end(j),
-                )
-            )
+            bound, end = bool(skeleton.bound), skeleton.is_end(j)
+            nodes.append(SceneNode(joint, parent_node, bone=True, animated=bound, end=end))
     return nodes, owners
 
 
