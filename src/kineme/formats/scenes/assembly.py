@@ -31,7 +31,7 @@ from kineme._util.checks import join_names, make_unique
 from kineme._util.rotations import from_matrices, to_matrices
 from kineme.formats.files import MAX_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, list_ancestors
-from kineme.formats.skeletons.placing import build_motion, require_frame_memory
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion, require_frame_memory
 from kineme.formats.units import iterate_blocks, to_metres
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.rig import UNIFORM, Rig
@@ -408,6 +408,6 @@ def count_frames(
     ``external_size`` is the size in bytes of other files that belong to it.
     """
     n_frames = int(min(frames, MAX_FRAMES))
-    allowed = max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size)
-    require_frame_memory(content, joints, n_frames, allowed=allowed)
+    if BYTES_PER_JOINT * joints * n_frames > max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size):
+        require_frame_memory(content, joints, n_frames)
     return n_frames
