@@ -1,4 +1,4 @@
-"""Find the joints of a character in a scene, and choose one of its animations.
+"""Find the joints of a character in a scene, and choose and check its animations.
 
 A scene is a tree of nodes. Bones are the nodes that the file marks as such, or if there are none,
 animated nodes without geometry. Nodes between two bones belong to the skeleton, too, and so do
@@ -12,13 +12,19 @@ one, and those that stand still while others move, are props.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
 
 from kineme._util.checks import join_names, make_unique
-from kineme.formats.files import FileContent
+from kineme.errors import WriteError
+from kineme.formats.files import FileContent, require_rotations
 from kineme.formats.options import choose_person
-from kineme.recordings import Note
+from kineme.formats.plausibility import warn_of_gaps
+from kineme.formats.skeletons.placing import RIGID
+from kineme.recordings import Motion, Note, Skeleton
 
 MIN_SIZE_RATIO = 0.25
 """Fraction of the joints of the largest skeleton below which another one is a prop."""
@@ -142,6 +148,53 @@ def _find_take(names: Sequence[str], name: str) -> int | None:
     if name.isdecimal() and len(name) < 10 and int(name) < len(names):
         return int(name)
     return None
+
+
+def check_animations(motions: Mapping[str, Motion], path: Path, what: str) -> Motion:
+    """Return the first of the motions to be written as animations of one skeleton.
+
+    Raise WriteError if one has no rotations or another skeleton.
+    """
+    first = next(iter(motions.values()))
+    for motion in motions.values():
+        require_rotations(motion, path, what)
+        if motion.skeleton is not first.skeleton and not _is_same_skeleton(
+            motion.skeleton, first.skeleton
+        ):
+            raise WriteError(path, "its animations have different skeletons: write several files")
+    warn_of_gaps(motions.values(), path)
+    return first
+
+
+def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
+    """Return whether skeletons of two takes are equal, apart from rounding."""
+    if first.names != second.names or first.parents != second.parents:
+        return False
+    if first.rig is None or second.rig is None or not first.rig.numbers:
+        return np.allclose(first.offsets, second.offsets, atol=RIGID)
+    # Offsets of joints with translations depend on the take, so compare the rest poses.
+    if first.rig.numbers != second.rig.numbers:
+        return False
+    first_rest, second_rest = (
+        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (first.rig, second.rig)
+    )
+    return np.allclose(first_rest, second_rest, atol=RIGID)
+
+
+def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skeleton:
+    """Return the skeleton of motions to be written as animations in a copy of their file.
+
+    Raise WriteError if the rig does not match the file, or like `check_animations`.
+    """
+    skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
+    if skeleton.rig is None or not skeleton.rig.numbers:
+        raise make_uneven_error(source, path)
+    return skeleton
+
+
+def make_uneven_error(source: Path, path: Path) -> WriteError:
+    """Return the error for a rest pose that a rig cannot represent."""
+    return WriteError(path, f"the bones of {source.name} are mirrored or scaled unevenly at rest")
 
 
 def is_end(name: str) -> bool:

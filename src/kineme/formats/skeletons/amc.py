@@ -43,8 +43,8 @@ from kineme.formats.files import FileContent, clean_names, format_table, load, p
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
-from kineme.formats.skeletons.bvh import RIGID, compute_local_pose
-from kineme.formats.skeletons.placing import build_motion, require_frame_memory
+from kineme.formats.skeletons.bvh import compute_local_pose
+from kineme.formats.skeletons.placing import RIGID, build_motion, require_frame_memory
 from kineme.formats.units import UNITS, iterate_blocks
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.posing import get_rig
@@ -210,7 +210,7 @@ def _read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, 
         if n_frames and label != before + 1:
             content.warn(f"frame {label} follows {before}", content.line_at(head.start()))
         span = slice(head.end(), following.start() if following else None)
-        row = parser and parser.parse(content.data[span])
+        row = parser.parse(content.data[span]) if parser else None
         if row is None:
             try:
                 frame = _parse_lines(content, span, figure)

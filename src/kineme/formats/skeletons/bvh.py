@@ -52,7 +52,12 @@ from kineme.formats.files import (
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
 from kineme.formats.scenes.characters import Character, SceneNode, find_character
-from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
+from kineme.formats.skeletons.placing import (
+    RIGID,
+    build_motion,
+    order_depth_first,
+    require_frame_memory,
+)
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.joint_names import find_joints
@@ -64,13 +69,6 @@ CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 UNIT = 0.01
 """Metres per unit for recordings from other formats."""
-RIGID = 5e-7
-"""Metres by which a bone may differ from its offset and still count as rigid.
-
-Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
-adds up to 0.01 mm.
-"""
-
 POSITIONS: list[Channel] = [(axis, "position") for axis in "xyz"]
 ROTATIONS: list[Channel] = [(axis, "rotation") for axis in "zyx"]
 """Channels of joints that did not come from a BVH."""
