@@ -202,24 +202,27 @@ def _read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, 
     order: list[str] = []
     parser: _FrameParser | None = None
     rows = array("d")
-    label = n_frames = 0
+    label = n_frames = counted = 0
+    line = 1
     head = _FRAME.search(content.data, start)
     while head:
         following = _FRAME.search(content.data, head.end())
-        before, label = label, _parse_frame_number(content, head)
+        # Counting the lines from the start of the file for each frame would take long.
+        line += content.data.count(b"\n", counted, head.start())
+        counted = head.start()
+        before, label = label, _parse_frame_number(content, head, line)
         if n_frames and label != before + 1:
-            content.warn(f"frame {label} follows {before}", content.line_at(head.start()))
+            content.warn(f"frame {label} follows {before}", line)
         span = slice(head.end(), following.start() if following else None)
         row = parser.parse(content.data[span]) if parser else None
         if row is None:
             try:
-                frame = _parse_lines(content, span, figure)
-                _check_complete(content, frame, first, head.start())
+                frame = _parse_lines(content, span, line, figure)
+                _check_complete(content, frame, first, line)
             except ReadError as error:
                 # Only a fault at the end of the file may be due to truncation.
                 last_line = content.line_at(len(content.data.rstrip()))
-                is_end = error.line in (content.line_at(head.start()), last_line)
-                if following or not is_end or not n_frames:
+                if following or error.line not in (line, last_line) or not n_frames:
                     raise
                 reason = f"{error.reason}: the last frame is truncated and left out"
                 content.warn(reason, error.line)
@@ -246,11 +249,10 @@ def _read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, 
     return dict(zip(order, columns, strict=True))
 
 
-def _parse_frame_number(content: FileContent, head: re.Match[bytes]) -> int:
+def _parse_frame_number(content: FileContent, head: re.Match[bytes], line: int) -> int:
     word = head.group().strip()
     if len(word) > 18:
-        reason = f"{word[:18].decode()}... is not a frame number"
-        raise content.error(reason, content.line_at(head.start()))
+        raise content.error(f"{word[:18].decode()}... is not a frame number", line)
     return int(word)
 
 
@@ -291,16 +293,16 @@ class _FrameParser:
         return self.rows[:n_frames], stop
 
 
-def _parse_lines(content: FileContent, span: slice, figure: Figure) -> Frame:
+def _parse_lines(content: FileContent, span: slice, first_line: int, figure: Figure) -> Frame:
     """Return the values of a frame of any layout; errors state the line."""
     frame: Frame = {}
-    for number, line in enumerate(content.data[span].splitlines()):
+    for number, line in enumerate(content.data[span].splitlines(), first_line):
         words = line.split()
         if words and not words[0].startswith(b"#"):
             try:
                 _add_bone(frame, words, figure)
             except ValueError as error:
-                raise content.error(str(error), content.line_at(span.start) + number) from None
+                raise content.error(str(error), number) from None
     return frame
 
 
@@ -320,12 +322,12 @@ def _add_bone(frame: Frame, words: list[bytes], figure: Figure) -> None:
     frame[name] = values
 
 
-def _check_complete(content: FileContent, frame: Frame, first: Frame, offset: int) -> None:
-    """Raise ReadError if a frame, which starts here, is empty or lacks a bone of the first one."""
+def _check_complete(content: FileContent, frame: Frame, first: Frame, line: int) -> None:
+    """Raise ReadError if a frame is empty or lacks a bone of the first one."""
     missing = [name for name in first if name not in frame]
     if missing or not frame:
         bone = missing[0] if missing else "any bone"
-        raise content.error(f"a frame has no values for {bone}", content.line_at(offset))
+        raise content.error(f"a frame has no values for {bone}", line)
 
 
 def refuse_asf(content: FileContent, options: ReadOptions) -> Motion:  # noqa: ARG001
