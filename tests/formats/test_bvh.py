@@ -31,14 +31,8 @@ def load(folder: Path, text: str | bytes = BVH, **options: object) -> Motion:
 
 def test_what_a_file_says(tmp_path: Path) -> None:
     motion = load(tmp_path)
-    assert motion.skeleton.names == (
-        "Hips",
-        "mixamorig:Left Up.Leg",
-        "Foot",
-        "Foot_end",
-        "Head",
-        "Head_end",
-    )
+    names = ("Hips", "mixamorig:Left Up.Leg", "Foot", "Foot_end", "Head", "Head_end")
+    assert motion.skeleton.names == names
     assert motion.skeleton.end_sites == {3, 5}
     assert motion.fps == 120
     assert motion.positions[1, 0] == pytest.approx([0.01, 0.91, 0.01])

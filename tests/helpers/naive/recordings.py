@@ -20,22 +20,6 @@ Floats = NDArray[np.float64]
 # --- formats: positions straight from the text of a file, one joint and frame at a time -------
 
 
-def read_amc_rows(text: str, counts: Mapping[str, int]) -> list[list[float]] | None:
-    """Number and values of each frame, whose bones come in this order; None if they do not."""
-    words, rows = text.split(), []
-    try:
-        while words:
-            row = [float(words.pop(0))]
-            for name, count in counts.items():
-                if words.pop(0) != name:
-                    return None
-                row += [float(words.pop(0)) for _ in range(count)]
-            rows.append(row)
-    except (IndexError, ValueError):
-        return None
-    return rows
-
-
 def compute_amc_positions(asf: str, amc: str, frames: Sequence[int]) -> list[dict[str, Floats]]:
     """Where each bone starts and ends, in metres, by bone: [start, tip]; CMU's dialect only."""
     unit = 0.0254 / float(asf.split("length")[1].split()[0])

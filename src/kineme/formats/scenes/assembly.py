@@ -31,7 +31,7 @@ from kineme._util.checks import join_names, make_unique
 from kineme._util.rotations import from_matrices, to_matrices
 from kineme.formats.files import MAX_EXPANSION, FileContent
 from kineme.formats.scenes.characters import SceneNode, list_ancestors
-from kineme.formats.skeletons.placing import build_motion, require_frame_memory
+from kineme.formats.skeletons.placing import BYTES_PER_JOINT, build_motion, require_frame_memory
 from kineme.formats.units import iterate_blocks, to_metres
 from kineme.recordings import Motion, Note, Provenance, Skeleton
 from kineme.recordings.rig import UNIFORM, Rig
@@ -41,7 +41,11 @@ World = tuple[Floats, Floats, Floats]
 """A node's axes (frames, 3, 3), full matrix (frames, 3, 3) and world position (frames, 3)."""
 
 Local = tuple[Floats, Floats, dict[int, Floats]]
-"""Rotations, offsets and slides of joints relative to their parents, for `build_motion`."""
+"""Rotations (frames, joints, 4), offsets (joints, 3) and slides (frames, 3) by joint.
+
+They are relative to the parent, those of the root to the world. The root slides, and so do joints
+whose translation varies.
+"""
 
 DEFAULT_RATE = 30.0
 """Frames per second of files that state no rate and whose keys are not evenly spaced."""
@@ -141,19 +145,10 @@ def _apply_scale(
     n_frames: int,
     turn: Floats,
 ) -> Local | None:
-    """Return joints whose scales are applied to their offsets; None if one is not uniform.
+    """Multiply offsets by the scale above them, and keep rotations; None if one is not uniform.
 
     ``ancestors`` are the nodes above the root, topmost first, ``joints`` those of the joints, root
     first, ``parents`` the indices of joints. ``turn`` is the rotation of the scene's axes to y up.
-
-    Returns
-    -------
-    rotations : (frames, joints, 4)
-        Relative to the parent, unchanged; that of the root is in the world.
-    offsets : (joints, 3)
-        Multiplied by the world scale of the parent.
-    slides : dict of int to (frames, 3)
-        Translations of the root, and of joints whose translation varies.
     """
     # The transforms of the nodes above the root become part of the root.
     position, rotation, world, node_scale = np.zeros(3), turn, 1.0, 1.0
@@ -408,6 +403,6 @@ def count_frames(
     ``external_size`` is the size in bytes of other files that belong to it.
     """
     n_frames = int(min(frames, MAX_FRAMES))
-    allowed = max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size)
-    require_frame_memory(content, joints, n_frames, allowed=allowed)
+    if BYTES_PER_JOINT * joints * n_frames > max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size):
+        require_frame_memory(content, joints, n_frames)
     return n_frames

@@ -1,4 +1,4 @@
-"""Find the joints of a character in a scene, and choose one of its animations.
+"""Find the joints of a character in a scene, and choose and check its animations.
 
 A scene is a tree of nodes. Bones are the nodes that the file marks as such, or if there are none,
 animated nodes without geometry. Nodes between two bones belong to the skeleton, too, and so do
@@ -12,13 +12,19 @@ one, and those that stand still while others move, are props.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
 
 from kineme._util.checks import join_names, make_unique
-from kineme.formats.files import FileContent
+from kineme.errors import WriteError
+from kineme.formats.files import FileContent, require_rotations
 from kineme.formats.options import choose_person
-from kineme.recordings import Note
+from kineme.formats.plausibility import warn_of_gaps
+from kineme.formats.skeletons.placing import RIGID
+from kineme.recordings import Motion, Note, Skeleton
 
 MIN_SIZE_RATIO = 0.25
 """Fraction of the joints of the largest skeleton below which another one is a prop."""
@@ -35,9 +41,9 @@ class SceneNode:
 
     name: str
     parent: int  # -1 for none; parents come before their children
-    bone: bool  # whether the file marks it as a bone
-    geometry: bool  # whether it carries a mesh, a camera or a light
-    animated: bool  # whether the chosen animation moves it
+    bone: bool = False  # whether the file marks it as a bone
+    geometry: bool = False  # whether it carries a mesh, a camera or a light
+    animated: bool = False  # whether the chosen animation moves it
     end: bool = False  # whether it ends a limb if it is a leaf without rotations
 
 
@@ -144,29 +150,51 @@ def _find_take(names: Sequence[str], name: str) -> int | None:
     return None
 
 
-def find_scene_joints(
-    parents: Sequence[int], bones: Sequence[bool], free: Sequence[bool]
-) -> list[bool]:
-    """Return whether each node is a joint: a bone, between two bones, or a free end below one.
+def check_animations(motions: Mapping[str, Motion], path: Path, what: str) -> Motion:
+    """Return the first of the motions to be written as animations of one skeleton.
 
-    ``free`` nodes carry no geometry.
+    Raise WriteError if one has no rotations or another skeleton.
     """
-    joints = list(bones)
-    has_bone_above = [False] * len(parents)
-    for node, parent in enumerate(parents):
-        has_bone_above[node] = parent >= 0 and (has_bone_above[parent] or bones[parent])
-    has_bone_below, has_only_free_below = list(bones), list(free)
-    # Process children before parents.
-    for node in range(len(parents) - 1, -1, -1):
-        joints[node] = bones[node] or (
-            has_bone_above[node] and (has_bone_below[node] or has_only_free_below[node])
-        )
-        if (parent := parents[node]) >= 0:
-            has_bone_below[parent] |= has_bone_below[node]
-            has_only_free_below[parent] &= has_only_free_below[node]
-    for node, parent in enumerate(parents):  # drop nodes below those that were dropped
-        joints[node] &= bones[node] or (parent >= 0 and joints[parent])
-    return joints
+    first = next(iter(motions.values()))
+    for motion in motions.values():
+        require_rotations(motion, path, what)
+        if motion.skeleton is not first.skeleton and not _is_same_skeleton(
+            motion.skeleton, first.skeleton
+        ):
+            raise WriteError(path, "its animations have different skeletons: write several files")
+    warn_of_gaps(motions.values(), path)
+    return first
+
+
+def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
+    """Return whether skeletons of two takes are equal, apart from rounding."""
+    if first.names != second.names or first.parents != second.parents:
+        return False
+    if first.rig is None or second.rig is None or not first.rig.numbers:
+        return np.allclose(first.offsets, second.offsets, atol=RIGID)
+    # Offsets of joints with translations depend on the take, so compare the rest poses.
+    if first.rig.numbers != second.rig.numbers:
+        return False
+    first_rest, second_rest = (
+        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (first.rig, second.rig)
+    )
+    return np.allclose(first_rest, second_rest, atol=RIGID)
+
+
+def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skeleton:
+    """Return the skeleton of motions to be written as animations in a copy of their file.
+
+    Raise WriteError if the rig does not match the file, or like `check_animations`.
+    """
+    skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
+    if skeleton.rig is None or not skeleton.rig.numbers:
+        raise make_uneven_error(source, path)
+    return skeleton
+
+
+def make_uneven_error(source: Path, path: Path) -> WriteError:
+    """Return the error for a rest pose that a rig cannot represent."""
+    return WriteError(path, f"the bones of {source.name} are mirrored or scaled unevenly at rest")
 
 
 def is_end(name: str) -> bool:
@@ -179,19 +207,22 @@ def _find_skeletons(nodes: Sequence[SceneNode]) -> list[list[int]]:
     bones = [node.bone for node in nodes]
     if not any(bones):
         bones = [node.animated and not node.geometry for node in nodes]
-    parents = [node.parent for node in nodes]
-    joints = find_scene_joints(parents, bones, [not node.geometry for node in nodes])
+    has_bone_below, has_no_geometry = list(bones), [not node.geometry for node in nodes]
+    # Process children before parents.
+    for j in range(len(nodes) - 1, -1, -1):
+        if (parent := nodes[j].parent) >= 0:
+            has_bone_below[parent] |= has_bone_below[j]
+            has_no_geometry[parent] &= has_no_geometry[j]
     skeletons: list[list[int]] = []
     skeleton_of: dict[int, list[int]] = {}
-    for j, joint in enumerate(joints):
-        if not joint:
-            continue
-        if nodes[j].parent in skeleton_of:
-            skeleton_of[j] = skeleton_of[nodes[j].parent]
-        else:
-            skeleton_of[j] = []
-            skeletons.append(skeleton_of[j])
-        skeleton_of[j].append(j)
+    for j, node in enumerate(nodes):
+        # Below a joint, nodes between two bones and the ends of limbs are joints as well.
+        skeleton = skeleton_of.get(node.parent)
+        if bones[j] or (skeleton is not None and (has_bone_below[j] or has_no_geometry[j])):
+            if skeleton is None:
+                skeletons.append(skeleton := [])
+            skeleton.append(j)
+            skeleton_of[j] = skeleton
     return skeletons
 
 

@@ -30,7 +30,7 @@ from kineme.formats.scenes.assembly import (
 from kineme.formats.scenes.characters import choose_take, find_character, find_moving_takes
 from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, TEXT, parse_fbx
-from kineme.formats.scenes.fbx_scene import FBXScene, Pose, Take
+from kineme.formats.scenes.fbx_scene import REST_TAKE, FBXScene, Pose, Take
 from kineme.formats.scenes.fbx_writer import CENTIMETRE, copy_takes, write_fbx, write_takes
 from kineme.formats.skeletons.placing import BYTES_PER_JOINT
 from kineme.formats.units import make_up_rotation
@@ -55,14 +55,14 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
     frame_times = _compute_frame_times(scene, take, joints, fps)
     turn, turn_notes = _find_turn(scene, options)
     factor = scene.get_setting("UnitScaleFactor", 1.0)  # centimetres per unit
-    pose = Pose(scene, take, Sampler(frame_times))
+    sampler = Sampler(frame_times)
     notes = [f"FBX {version // 1000}.{version % 1000 // 100}", *notes, *character.notes]
     return assemble(
         content,
         nodes,
         character.joints,
-        pose.compute_transform,
-        pose.compute_rest,
+        Pose(scene, take, sampler).compute_transform,
+        Pose(scene, REST_TAKE, sampler).compute_bound,
         len(frame_times),
         fps,
         unit=options.unit or CENTIMETRE * (factor if factor > 0 else 1.0),

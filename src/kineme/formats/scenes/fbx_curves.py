@@ -76,7 +76,7 @@ class CurveReader:
 
     def read(self, node: FBXNode) -> Curve | None:
         """Return the curve of an ``AnimationCurve``; None if it has no key."""
-        times, values = self._read_times(node), node.array(self.content, "KeyValueFloat")
+        times, values = self._read_times(node), node.array("KeyValueFloat")
         if values is None or len(times) == 0:
             return None
         if len(times) != len(values):
@@ -84,7 +84,7 @@ class CurveReader:
             raise self.content.error(reason)
         if not np.isfinite(values).all():
             raise self.content.error("a curve has values that are not finite: damaged")
-        flags, details = _read_attributes(self.content, node, len(times))
+        flags, details = _read_attributes(node, len(times))
         kinds = int(np.bitwise_or.reduce(flags))
         # Sort the keys and keep one of those at the same time.
         if not self._ordered:  # editors may leave moved keys unsorted
@@ -96,21 +96,19 @@ class CurveReader:
         stored = node.stored("KeyTime")
         if stored is None:
             return np.empty(0)
-        packed = stored.raw(self.content)
+        packed = stored.raw
         # Most curves have identical times, so compare the packed bytes.
         if packed != self._packed or not packed:
-            self._packed, self._times = packed, stored.read(self.content).astype(np.float64)
+            self._packed, self._times = packed, stored.read().astype(np.float64)
             self._ordered = bool((np.diff(self._times) > 0).all())
         return self._times
 
 
-def _read_attributes(
-    content: FileContent, node: FBXNode, n_keys: int
-) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
+def _read_attributes(node: FBXNode, n_keys: int) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
     """Return flags and details of each key; the file stores them once for a run of equal ones."""
-    flags = node.array(content, "KeyAttrFlags")
-    details = node.array(content, "KeyAttrDataFloat")
-    counts = node.array(content, "KeyAttrRefCount")
+    flags = node.array("KeyAttrFlags")
+    details = node.array("KeyAttrDataFloat")
+    counts = node.array("KeyAttrRefCount")
     if flags is None or counts is None or len(flags) != len(counts) or len(flags) == 0:
         flags, counts, details = np.array([LINEAR]), np.array([n_keys]), None
     with np.errstate(invalid="ignore"):
@@ -149,23 +147,23 @@ class Sampler:
 
     def __init__(self, frame_times: Floats) -> None:
         self.frame_times = frame_times
-        self._matched_times = frame_times  # last key times that match the frames
         self._times = np.empty(0)
         self._index: NDArray[np.intp] = np.empty(0, np.intp)
         self._share = np.empty(0)
 
     def sample(self, curve: Curve) -> Floats:
         """Return values (frames,), or () if the curve is constant."""
-        times, values = curve.times, curve.values
+        times, values, frame_times = curve.times, curve.values, self.frame_times
         # With tangents, a cubic curve may bulge between equal values.
         is_constant = bool((values == values[0]).all())
         if is_constant and not curve.kinds & CUBIC:
             return values[:1].reshape(())
-        if self._are_frames(times):
+        if len(times) == len(frame_times) and np.abs(times - frame_times).max() <= SLACK:
             return values[:1].reshape(()) if is_constant else values
         if len(times) == 1:
             return values.reshape(())
-        self._find_keys(times)
+        if times is not self._times:  # `CurveReader` returns one array for equal times
+            self._times, (self._index, self._share) = times, find_keys(times, frame_times, SLACK)
         i, share = self._index, self._share
         sampled = values[i] + share * (values[i + 1] - values[i])
         flags = curve.flags[i]
@@ -178,22 +176,6 @@ class Sampler:
             cubic = ((flags & CUBIC) > 0) & (share > 0) & (share < 1)
             sampled[cubic] = _evaluate_bezier(curve, i[cubic], share[cubic])
         return sampled
-
-    def _are_frames(self, times: Floats) -> bool:
-        """Return whether there is a key at each frame."""
-        if times is self._matched_times:
-            return True
-        if len(times) != len(self.frame_times) or np.abs(times - self.frame_times).max() > SLACK:
-            return False
-        self._matched_times = times
-        return True
-
-    def _find_keys(self, times: Floats) -> None:
-        """Find the key before each frame, and the fraction of the interval that has passed."""
-        if len(times) == len(self._times) and np.array_equal(times, self._times):
-            return
-        self._times = times
-        self._index, self._share = find_keys(times, self.frame_times, SLACK)
 
 
 def _evaluate_bezier(curve: Curve, i: NDArray[np.intp], share: Floats) -> Floats:

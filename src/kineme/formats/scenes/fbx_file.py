@@ -20,9 +20,10 @@ from __future__ import annotations
 import re
 import struct
 import zlib
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,12 +58,21 @@ _SCALARS = {
 _ARRAYS = dict(zip(b"fdlibc", ("<f4", "<f8", "<i8", "<i4", "<i1", "<i1"), strict=True))
 
 
-class StoredArray(Protocol):
-    """An array that is parsed on demand."""
+@dataclass(slots=True)
+class StoredArray(ABC):
+    """An array in the bytes of a file from ``start`` to ``stop``, parsed on demand."""
 
-    def raw(self, content: FileContent) -> bytes: ...
+    content: FileContent
+    count: int
+    start: int
+    stop: int
 
-    def read(self, content: FileContent) -> NDArray[Any]: ...
+    @property
+    def raw(self) -> bytes:
+        return self.content.data[self.start : self.stop]
+
+    @abstractmethod
+    def read(self) -> NDArray[Any]: ...
 
 
 @dataclass(slots=True)
@@ -98,15 +108,12 @@ class FBXNode:
         """Return the unparsed array in a child, None if there is none."""
         node = self.child(child)
         value = node.values[0] if node and node.values else None
-        if value is None or isinstance(value, str | bytes | int | float):
-            return None
-        stored: StoredArray = value
-        return stored
+        return value if isinstance(value, StoredArray) else None
 
-    def array(self, content: FileContent, child: str) -> NDArray[Any] | None:
+    def array(self, child: str) -> NDArray[Any] | None:
         """Return the array in a child, None if there is none."""
         stored = self.stored(child)
-        return None if stored is None else stored.read(content)
+        return None if stored is None else stored.read()
 
 
 def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
@@ -118,7 +125,9 @@ def parse_fbx(content: FileContent) -> tuple[int, FBXNode]:
         version = int.from_bytes(content.data[START - 4 : START], "little")
         _refuse_old(content, version)
         return version, _parse_binary(content, get_head_struct(version))
-    root = _TextParser(content).root
+    # Offsets count bytes, so the text stays bytes.
+    utf8 = FileContent(content.path, content.text.encode()) if content.is_utf16 else content
+    root = _TextParser(utf8).root
     header = root.child("FBXHeaderExtension")
     version_node = header.child("FBXVersion") if header else None
     number = version_node.values[0] if version_node and version_node.values else 0
@@ -177,13 +186,8 @@ def _parse_binary(content: FileContent, head: struct.Struct) -> FBXNode:
         nodes += 1
         require_node_memory(content, nodes)
         name = data[offset:start].decode("utf-8", "replace")
-        child = FBXNode(
-            name,
-            _parse_values(content, start, start + size, count),
-            children=[],
-            start=first,
-            stop=end,
-        )
+        values = _parse_values(content, start, start + size, count)
+        child = FBXNode(name, values, start=first, stop=end)
         node.children.append(child)
         offset = start + size
         # The rest of the node holds its children.
@@ -199,7 +203,7 @@ def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> l
         if offset >= stop:
             raise content.error("a node has fewer values than it states: truncated or damaged")
         try:
-            value, offset = _parse_value(content.data, offset)
+            value, offset = _parse_value(content, offset)
         except struct.error:
             raise content.error("ends within a value: the file is truncated") from None
         except KeyError as error:
@@ -211,8 +215,9 @@ def _parse_values(content: FileContent, offset: int, stop: int, count: int) -> l
     return values
 
 
-def _parse_value(data: bytes, offset: int) -> tuple[Any, int]:
+def _parse_value(content: FileContent, offset: int) -> tuple[Any, int]:
     """Return a value and the offset of the next one."""
+    data = content.data
     kind = data[offset]
     offset += 1
     if scalar := _SCALARS.get(kind):
@@ -223,36 +228,27 @@ def _parse_value(data: bytes, offset: int) -> tuple[Any, int]:
         return raw.decode("utf-8", "replace") if kind == ord("S") else raw, offset + 4 + size
     code = _ARRAYS[kind]
     count, packed, size = struct.unpack_from("<III", data, offset)
-    return _BinaryArray(code, count, packed, offset + 12, size), offset + 12 + size
+    stop = offset + 12 + size
+    return _BinaryArray(content, count, offset + 12, stop, code, packed), stop
 
 
 @dataclass(slots=True)
-class _BinaryArray:
-    """An array in a binary file, parsed on demand."""
-
+class _BinaryArray(StoredArray):
     code: str
-    count: int
     packed: int
-    start: int
-    size: int
 
-    def raw(self, content: FileContent) -> bytes:
-        return content.data[self.start : self.start + self.size]
-
-    def read(self, content: FileContent) -> NDArray[Any]:
-        raw = self.raw(content)
-        size = self.count * np.dtype(self.code).itemsize
+    def read(self) -> NDArray[Any]:
+        raw, size = self.raw, self.count * np.dtype(self.code).itemsize
         if self.packed:
-            content.require_memory(size, f"an array of {self.count} numbers")
+            self.content.require_memory(size, f"an array of {self.count} numbers")
             try:
                 # One more byte reveals an array longer than declared.
                 raw = zlib.decompressobj().decompress(raw, size + 1)
             except zlib.error as error:
-                raise content.error(f"an array cannot be unpacked: {error}") from None
+                raise self.content.error(f"an array cannot be unpacked: {error}") from None
         if len(raw) != size:
-            raise content.error(
-                f"an array does not have the {self.count} numbers it states: damaged"
-            )
+            reason = f"an array does not have the {self.count} numbers it states: damaged"
+            raise self.content.error(reason)
         return np.frombuffer(raw, self.code)
 
 
@@ -260,9 +256,7 @@ class _TextParser:
     """Parse one token after another."""
 
     def __init__(self, content: FileContent) -> None:
-        self.content = content
-        # Offsets count bytes, so the text stays bytes.
-        self.data = content.text.encode("utf-8") if content.is_utf16 else content.data
+        self.content, self.data = content, content.data
         self.root = FBXNode("")
         self.open_nodes = [self.root]
         self.node: FBXNode | None = None  # the node whose values are being read
@@ -272,15 +266,14 @@ class _TextParser:
             self.offset = match.end()
             self._parse_token(match)
         if self.data[self.offset :].strip():
-            raise self._make_error(
-                f"{self.data[self.offset : self.offset + 40].strip()!r} is not FBX", self.offset
-            )
+            word = self.data[self.offset : self.offset + 40].strip()
+            raise self._make_error(f"{word!r} is not FBX", self.offset)
         if len(self.open_nodes) > 1:
             raise content.error(f"the '}}' of {self.open_nodes[-1].name!r:.40} is missing")
 
     def _make_error(self, reason: str, offset: int) -> ReadError:
         # Count lines only when a message needs them.
-        return self.content.error(reason, self.data.count(b"\n", 0, offset) + 1)
+        return self.content.error(reason, self.content.line_at(offset))
 
     def _parse_token(self, match: re.Match[bytes]) -> None:
         """Add a token to the node that is open, or open or close one."""
@@ -314,7 +307,7 @@ class _TextParser:
         start, stop = _ARRAY.match(self.data, self.offset), self.data.find(b"}", self.offset)
         if start is None or stop < 0:
             raise self._make_error("an array without its numbers", self.offset)
-        array = _TextArray(int(count[:_MAX_DIGITS]), self.data, start.end(), stop)
+        array = _TextArray(self.content, int(count[:_MAX_DIGITS]), start.end(), stop)
         self.offset = stop + 1
         return array
 
@@ -336,25 +329,17 @@ def _parse_word(word: bytes) -> int | float | str:
     return word.decode("utf-8", "replace")
 
 
-@dataclass(slots=True)
-class _TextArray:
-    """An array in a text file, parsed on demand."""
+class _TextArray(StoredArray):
+    __slots__ = ()
 
-    count: int
-    data: bytes
-    start: int
-    stop: int
-
-    def raw(self, _: FileContent) -> bytes:
-        return self.data[self.start : self.stop]
-
-    def read(self, content: FileContent) -> NDArray[Any]:
-        words = self.raw(content).split(b",")
-        line = self.data.count(b"\n", 0, self.start) + 1
+    def read(self) -> NDArray[Any]:
+        words, line = self.raw.split(b","), self.content.line_at(self.start)
         try:
             values = np.array(words, np.float64) if words != [b""] else np.empty(0)
         except ValueError:
-            raise content.error("an array contains a value that is not a number", line) from None
+            reason = "an array contains a value that is not a number"
+            raise self.content.error(reason, line) from None
         if len(values) != self.count:
-            raise content.error(f"{len(values)} numbers in an array of {self.count}", line)
+            reason = f"{len(values)} numbers in an array of {self.count}"
+            raise self.content.error(reason, line)
         return values

@@ -143,10 +143,10 @@ class FBXScene:
             if node.name == "Pose":
                 for entry in node.all("PoseNode"):
                     if reference := entry.child("Node"):
-                        matrix = entry.array(self.content, "Matrix")
+                        matrix = entry.array("Matrix")
                         found.append((reference.number(0, -1), matrix))
             elif node.name == "Deformer" and node.text(2) == "Cluster":
-                matrix = node.array(self.content, "TransformLink")
+                matrix = node.array("TransformLink")
                 found += [(part, matrix) for part in self._parts.get(number, ())]
             for model, matrix in found:
                 if matrix is not None and len(matrix) == 16 and np.isfinite(matrix).all():
@@ -213,16 +213,23 @@ class FBXScene:
 
     def find_moved(self, take: Take) -> set[int]:
         """Return the numbers of the models that a take drives."""
-        return {
-            model
-            for (model, property_name), tracks in self.find_tracks(take).items()
-            if property_name in (TRANSLATION, ROTATION, SCALING)
-            and any(
-                self._is(curve, "AnimationCurve")
-                for _, part in tracks
-                for curve, _ in self._driving.get(part, ())
-            )
-        }
+        return {model for model, _ in self._iterate_curves(take)}
+
+    def iterate_key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
+        """Yield the times in ticks of the keys of each curve that moves one of these models."""
+        numbers = set(models)
+        for model, number in self._iterate_curves(take):
+            if model in numbers and (curve := self._reader.read(self.objects[number])):
+                yield curve.times
+
+    def _iterate_curves(self, take: Take) -> Iterator[tuple[int, int]]:
+        """Yield the numbers of each model that a take drives and of the curve that drives it."""
+        for (model, property_name), tracks in self.find_tracks(take).items():
+            if property_name in (TRANSLATION, ROTATION, SCALING):
+                for _, part in tracks:
+                    for number, _ in self._driving.get(part, ()):
+                        if self._is(number, "AnimationCurve"):
+                            yield model, number
 
     def find_tracks(self, take: Take) -> dict[tuple[int, str], list[tuple[int, int]]]:
         """Return layers and curve nodes of each model and property, the base layer first."""
@@ -244,14 +251,6 @@ class FBXScene:
                 curves[axis] = curve
         return curves
 
-    def iterate_key_times(self, take: Take, models: list[int]) -> Iterator[Floats]:
-        """Yield the times in ticks of the keys of each curve that moves one of these models."""
-        numbers = set(models)
-        for (model, property_name), parts in self.find_tracks(take).items():
-            if model in numbers and property_name in (TRANSLATION, ROTATION, SCALING):
-                for _, part in parts:
-                    yield from (curve.times for curve in self.read_curves(part).values())
-
     def get_setting(self, name: str, default: float) -> float:
         """Return a number in the file's global settings."""
         return _get_number(self.settings, name, default)
@@ -268,34 +267,29 @@ class Pose:
         self.tracks = scene.find_tracks(take)
         self.layers = {number: scene.get_properties(number) for number in take.layers}
 
-    def compute_rest(self, index: int) -> Transform:
-        """Return the transform of the model at an index of the scene, in the bind pose.
-
-        Without a bind pose it is the transform without animation.
-        """
+    def compute_bound(self, index: int) -> Transform:
+        """Return the transform of a model in the bind pose, or in this pose if it has none."""
         model = self.scene.models[index]
         if model.number not in self.scene.binds:
-            return self.compute_transform(index, animated=False)
+            return self.compute_transform(index)
         # Bind poses are in the world: solve for the transform relative to the parent.
         local = np.linalg.solve(
-            self._compute_rest_matrix(model.parent), self._compute_rest_matrix(index)
+            self._compute_bound_matrix(model.parent), self._compute_bound_matrix(index)
         )
         return decompose(np.asarray(local, np.float64))
 
-    def _compute_rest_matrix(self, index: int) -> Floats:
+    def _compute_bound_matrix(self, index: int) -> Floats:
         """Return the world matrix of a model in the bind pose; index -1 is the ground."""
         if index < 0:
             return np.eye(4)
         model = self.scene.models[index]
         if (bind := self.scene.binds.get(model.number)) is not None:
             return bind
-        local = [part[None] for part in self.compute_transform(index, animated=False)[:3]]
-        return np.asarray(self._compute_rest_matrix(model.parent) @ compose(*local)[0], np.float64)
+        local = [part[None] for part in self.compute_transform(index)[:3]]
+        return np.asarray(self._compute_bound_matrix(model.parent) @ compose(*local)[0], np.float64)
 
-    def compute_transform(self, index: int, *, animated: bool = True) -> Transform:
+    def compute_transform(self, index: int) -> Transform:
         """Return the transform of the model at an index of the scene, relative to its parent."""
-        if not animated and self.tracks:
-            return Pose(self.scene, REST_TAKE, self.sampler).compute_transform(index)
         model = self.scene.models[index]
         properties = model.properties
         order = _ORDERS[_get_choice(properties, "RotationOrder", len(_ORDERS))]

@@ -35,6 +35,7 @@ from kineme._version import __version__
 from kineme.errors import WriteError
 from kineme.formats.files import clean_names, load
 from kineme.formats.scenes.assembly import Transform, compose, stack_transforms
+from kineme.formats.scenes.characters import check_animations, check_copy, make_uneven_error
 from kineme.formats.scenes.fbx_curves import CUSTOM, LINEAR, RATES, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, START, FBXNode, get_head_struct, parse_fbx
 from kineme.formats.scenes.fbx_scene import (
@@ -47,8 +48,7 @@ from kineme.formats.scenes.fbx_scene import (
     Pose,
     invert_transform,
 )
-from kineme.formats.scenes.gltf_writer import check_animations, check_copy, make_uneven_error
-from kineme.formats.skeletons.bvh import RIGID
+from kineme.formats.skeletons.placing import RIGID
 from kineme.recordings import Motion
 from kineme.recordings.posing import get_rig, pose_rig
 from kineme.recordings.rig import Rig

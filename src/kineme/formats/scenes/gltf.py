@@ -157,19 +157,15 @@ def _make_nodes(
     for number, parent in zip(order, parents, strict=True):
         node = file.tree.nodes[number]
         is_marked = isinstance(node.extras, dict) and node.extras.get("end_site") is True
-        geometry = node.mesh is not None or node.camera is not None
-        end = is_marked if is_own else is_end(node.name)
-        name = node.name or f"node{number}"
-        nodes.append(
-            SceneNode(
-                name,
-                parent,
-                bone=number in bones,
-                geometry=geometry,
-                animated=number in moved,
-                end=end,
-            )
+        scene_node = SceneNode(
+            node.name or f"node{number}",
+            parent,
+            bone=number in bones,
+            geometry=node.mesh is not None or node.camera is not None,
+            animated=number in moved,
+            end=is_marked if is_own else is_end(node.name),
         )
+        nodes.append(scene_node)
     return nodes
 
 

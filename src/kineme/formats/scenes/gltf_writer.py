@@ -38,11 +38,11 @@ from kineme._util.files import atomic_write, translate_read_errors
 from kineme._util.json import decode_json
 from kineme._version import __version__
 from kineme.errors import ReadError, WriteError
-from kineme.formats.files import clean_names, load, require_rotations
-from kineme.formats.plausibility import warn_of_gaps
+from kineme.formats.files import clean_names, load
 from kineme.formats.scenes.assembly import compose
+from kineme.formats.scenes.characters import check_animations, check_copy
 from kineme.formats.scenes.gltf_file import BYTES, CHUNK, HEADER, JSON, MAGIC, GLTFFile
-from kineme.formats.skeletons.bvh import RIGID
+from kineme.formats.skeletons.placing import RIGID
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.posing import get_rig, pose_rig
 from kineme.recordings.rig import Rig
@@ -69,7 +69,7 @@ def write_animations(motions: Mapping[str, Motion], path: Path) -> None:
 
     A ``.gltf`` gets an embedded buffer.
     """
-    file = _SceneWriter(check_animations(motions, path), path)
+    file = _SceneWriter(check_animations(motions, path, "a glTF"), path)
     for name, motion in motions.items():
         file.animate(name, motion)
     save_gltf(file.tree, bytes(file.data), path)
@@ -97,53 +97,6 @@ def copy_animations(motions: Mapping[str, Motion], source: Path, path: Path) -> 
         copy.animate(name, motion)
     _close_number_gaps(copy)
     save_gltf(tree, bytes(copy.data), path)
-
-
-def check_animations(motions: Mapping[str, Motion], path: Path, what: str = "a glTF") -> Motion:
-    """Return the first of the motions to be written as animations of one skeleton.
-
-    Raise WriteError if one has no rotations or another skeleton.
-    """
-    first = next(iter(motions.values()))
-    for motion in motions.values():
-        require_rotations(motion, path, what)
-        if motion.skeleton is not first.skeleton and not _is_same_skeleton(
-            motion.skeleton, first.skeleton
-        ):
-            raise WriteError(path, "its animations have different skeletons: write several files")
-    warn_of_gaps(motions.values(), path)
-    return first
-
-
-def _is_same_skeleton(first: Skeleton, second: Skeleton) -> bool:
-    """Return whether skeletons of two takes are equal, apart from rounding."""
-    if first.names != second.names or first.parents != second.parents:
-        return False
-    if first.rig is None or second.rig is None or not first.rig.numbers:
-        return np.allclose(first.offsets, second.offsets, atol=RIGID)
-    # Offsets of joints with translations depend on the take, so compare the rest poses.
-    if first.rig.numbers != second.rig.numbers:
-        return False
-    first_rest, second_rest = (
-        np.hstack([rig.translations, rig.rotations, rig.scales]) for rig in (first.rig, second.rig)
-    )
-    return np.allclose(first_rest, second_rest, atol=RIGID)
-
-
-def check_copy(motions: Mapping[str, Motion], source: Path, path: Path) -> Skeleton:
-    """Return the skeleton of motions to be written as animations in a copy of their file.
-
-    Raise WriteError if the rig does not match the file, or like `check_animations`.
-    """
-    skeleton = check_animations(motions, path, f"a copy of {source.name}").skeleton
-    if skeleton.rig is None or not skeleton.rig.numbers:
-        raise make_uneven_error(source, path)
-    return skeleton
-
-
-def make_uneven_error(source: Path, path: Path) -> WriteError:
-    """Return the error for a rest pose that a rig cannot represent."""
-    return WriteError(path, f"the bones of {source.name} are mirrored or scaled unevenly at rest")
 
 
 def save_gltf(tree: dict[str, Any], data: bytes, path: Path) -> None:

@@ -157,9 +157,10 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
 
     stage, size_of_layers = open_stage(content)
     skeletons = [_Skeleton(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Skeleton)]
-    nodes, owners = _list_nodes(skeletons)
+    nodes = _list_nodes(skeletons)
     character = find_character(content, nodes, options.person)
-    skeleton, first_node = owners[character.joints[0]]
+    # The joints of a skeleton follow its carrier.
+    skeleton = [each for each in skeletons if each.carrier < character.joints[0]][-1]
     animations = [
         UsdSkel.Animation(prim) for prim in stage.Traverse() if prim.IsA(UsdSkel.Animation)
     ]
@@ -169,20 +170,16 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
     fps, codes, rate_notes = _find_frames(
         content, stage, candidates[number], len(nodes), options, size_of_layers
     )
-    pose = skeleton.sample_pose(candidates[number], codes)
+    carrier = UsdGeom.Xformable(skeleton.prim)
+    pose = [_sample_carrier(carrier, codes), *skeleton.sample_pose(candidates[number], codes)]
+    rest = [_sample_carrier(carrier, codes[:1]), *skeleton.rest_pose]
     up = options.up or ("z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y")
-    carrier, carrier_at_rest = (
-        _sample_carrier(UsdGeom.Xformable(skeleton.prim), time_codes)
-        for time_codes in (codes, codes[:1])
-    )
     return assemble(
         content,
         nodes,
         character.joints,
-        lambda node: carrier if node < first_node else pose[node - first_node],
-        lambda node: (
-            carrier_at_rest if node < first_node else skeleton.rest_pose[node - first_node]
-        ),
+        lambda node: pose[node - skeleton.carrier],
+        lambda node: rest[node - skeleton.carrier],
         len(codes),
         fps,
         unit=options.unit or max(UsdGeom.GetStageMetersPerUnit(stage), 0.0) or CENTIMETRE,
@@ -194,12 +191,12 @@ def _read(content: FileContent, options: ReadOptions) -> Motion:
 
 
 class _Skeleton:
-    """A skeleton of a stage."""
+    """A skeleton of a stage; ``carrier`` is the number of the node above its joints."""
 
     def __init__(self, prim: Any) -> None:
         from pxr import UsdSkel
 
-        self.prim = prim
+        self.prim, self.carrier = prim, 0
         schema = UsdSkel.Skeleton(prim)
         self.joints = _list_joints(schema)
         joint_names = list(map(str, schema.GetJointNamesAttr().Get() or ()))
@@ -244,35 +241,19 @@ class _Skeleton:
         return transforms
 
 
-def _list_nodes(
-    skeletons: Sequence[_Skeleton],
-) -> tuple[list[SceneNode], dict[int, tuple[_Skeleton, int]]]:
-    """Return all skeletons as nodes, each below its carrier, and the owner of each node.
-
-    The owner is the skeleton and the node of its first joint.
-    """
+def _list_nodes(skeletons: Sequence[_Skeleton]) -> list[SceneNode]:
+    """Return all skeletons as nodes: a carrier, followed by the joints."""
     nodes: list[SceneNode] = []
-    owners: dict[int, tuple[_Skeleton, int]] = {}
     for skeleton in skeletons:
-        carrier = len(nodes)
+        skeleton.carrier = len(nodes)
         name = skeleton.prim.GetParent().GetName() or skeleton.prim.GetName()
-        nodes.append(SceneNode(name, -1, bone=False, geometry=False, animated=False))
+        nodes.append(SceneNode(name, -1))
         for j, (joint, parent) in enumerate(zip(skeleton.names, skeleton.parents, strict=True)):
-            owners[len(nodes)] = skeleton, carrier + 1
-            # Parents are relative to the first joint; joints without parent are below the carrier.
-            parent_node = carrier if parent < 0 else carrier + 1 + parent
-            bound = bool(skeleton.bound)
-            nodes.append(
-                SceneNode(
-                    joint,
-                    parent_node,
-                    bone=True,
-                    geometry=False,
-                    animated=bound,
-                    end=skeleton.is_end(j),
-                )
-            )
-    return nodes, owners
+            # Parents are relative to the first joint; -1 is the carrier.
+            above, end = skeleton.carrier + 1 + parent, skeleton.is_end(j)
+            is_bound = bool(skeleton.bound)
+            nodes.append(SceneNode(joint, above, bone=True, animated=is_bound, end=end))
+    return nodes
 
 
 def _find_frames(

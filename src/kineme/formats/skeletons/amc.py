@@ -25,9 +25,10 @@ from __future__ import annotations
 
 import re
 import sys
+from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import chain, islice, pairwise, repeat, starmap
+from itertools import compress
 from math import radians
 from pathlib import Path
 
@@ -42,25 +43,24 @@ from kineme.formats.files import FileContent, clean_names, format_table, load, p
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
-from kineme.formats.skeletons.bvh import RIGID, compute_local_pose
-from kineme.formats.skeletons.placing import build_motion, require_frame_memory
+from kineme.formats.skeletons.bvh import compute_local_pose
+from kineme.formats.skeletons.placing import RIGID, build_motion, require_frame_memory
 from kineme.formats.units import UNITS, iterate_blocks
 from kineme.recordings import Motion, Skeleton
 from kineme.recordings.posing import get_rig
 
-Layout = dict[str, int]
-"""Number of values of each bone of a frame, in the order of the file."""
+Frame = dict[str, list[float]]
+"""Values of each bone, in the order of the file."""
 FPS = 120.0
 """Default frame rate, that of the CMU database."""
-CHUNK = 1 << 20
-"""Bytes of text that are split into words at a time."""
+ROWS = 1024
+"""Frames that are parsed at once."""
 UNIT = UNITS["cmu"]
 FIT = 1e-7
 """Largest 1 - cos of half the angle by which a bone may be turned on its own ASF: 0.05 degrees."""
 
 _FPS_COMMENT = re.compile(rb"^# fps ([0-9.e+-]+)\s*$", re.MULTILINE)
 _KEYWORD = re.compile(rb"^[ \t]*:(FULLY-SPECIFIED|DEGREES|RADIANS)\b", re.MULTILINE | re.IGNORECASE)
-_COMMENT = re.compile(rb"^[ \t]*#.*$", re.MULTILINE)
 _FRAME = re.compile(rb"^[ \t]*\d+[ \t]*\r?$", re.MULTILINE)
 
 
@@ -73,9 +73,7 @@ def read_amc(content: FileContent, options: ReadOptions) -> Motion:
     angle_unit = radians(1) if b"degrees" in keywords else figure.angle_unit
     if b"radians" in keywords:
         angle_unit = 1.0
-    values = _read_uniform_frames(content, len(head), figure) or _read_line_by_line(
-        content, len(head), figure
-    )
+    values = _read_frames(content, len(head), figure)
     notes = [f"skeleton from {asf.path}"]
     fps = content.choose_rate(options.fps, _parse_rate_comment(head))
     if not fps:
@@ -194,178 +192,121 @@ def _compute_local(
     return rotations, slides
 
 
-def _read_uniform_frames(
-    content: FileContent, start: int, figure: Figure
-) -> dict[str, Floats] | None:
-    """Return each bone's values (frames, dofs) if every frame has the layout of the first.
-
-    The text is parsed in chunks of whole frames, which limits memory to the numbers.
-    """
-    chunks: list[Floats] = []
-    layout: Layout | None = None
-    next_label = np.nan
-    for chunk in _split_chunks(content.data, start):
-        text = _COMMENT.sub(b"", chunk) if b"#" in chunk else chunk
-        layout = layout or _find_layout(text, figure)
-        rows = None if layout is None else _parse_rows(text, layout)
-        if rows is None:
-            return None
-        labels = rows[:, 0]
-        first = next_label if chunks else labels[0]
-        next_label = first + len(labels)
-        # Frames must be numbered consecutively across chunks.
-        if not np.array_equal(labels, np.arange(first, next_label)):
-            return None
-        chunks.append(rows)
-    return None if layout is None else _split_by_bone(chunks, layout, figure)
-
-
-def _split_chunks(data: bytes, start: int) -> Iterator[bytes]:
-    """Yield the text from ``start`` on, in chunks of whole frames."""
-    while start < len(data):
-        # Cut before the line of a frame's number.
-        after = _FRAME.search(data, start + CHUNK)
-        stop = after.start() if after else len(data)
-        yield data[start:stop]
-        start = stop
-
-
-def _find_layout(text: bytes, figure: Figure) -> Layout | None:
-    """Return the layout of the first frame; None if a bone is unknown, repeated or missing."""
-    first, second = islice(chain(_FRAME.finditer(text), repeat(None)), 2)
-    if first is None:
-        return None
-    words = text[first.end() : None if second is None else second.start()].split()
-    counts: dict[str, int] = {}
-    index = 0
-    while index < len(words):
-        name = words[index].decode("utf-8", "replace")
-        if name not in figure.bones or name in counts:
-            return None
-        counts[name] = len(figure.bones[name].dof)
-        index += 1 + counts[name]
-    complete = all(name in counts or not bone.dof for name, bone in figure.bones.items())
-    return counts if complete else None
-
-
-def _parse_rows(text: bytes, layout: Layout) -> Floats | None:
-    """Return a row per frame with its number and values, None for another layout.
-
-    Compiled code is used only if numba is loaded already: loading takes longer than parsing.
-    """
-    if "numba" in sys.modules:
-        rows = _parse_rows_compiled(text, layout)
-        if rows is not None:
-            return rows
-    words = text.split()
-    # A frame has a number, and a name and values for each bone.
-    n_words = 1 + sum(1 + count for count in layout.values())
-    if len(words) % n_words:
-        return None
-    rows = np.empty((len(words) // n_words, 1 + sum(layout.values())))
-    try:
-        rows[:, 0] = list(map(int, words[::n_words]))
-        word, column = 1, 1
-        for name, count in layout.items():
-            # The bone's name must be at the same position in every frame.
-            if words[word::n_words].count(name.encode()) != len(rows):
-                return None
-            for i in range(count):
-                rows[:, column + i] = list(map(float, words[word + 1 + i :: n_words]))
-            word, column = word + 1 + count, column + count
-    except (ValueError, OverflowError):
-        return None
-    return rows if np.isfinite(rows).all() else None
-
-
-def _parse_rows_compiled(text: bytes, layout: Layout) -> Floats | None:
-    """Return the same as `_parse_rows`, None if only ``float`` can parse some numbers."""
-    from kineme.formats.skeletons._amc_kernels import read_rows
-
-    counts = np.array([*layout.values()], np.int64)
-    names = [name.encode() for name in layout]
-    n_values = 1 + int(counts.sum())
-    shortest = 2 * (len(names) + n_values)  # a word has at least one letter and a space
-    rows = np.empty((len(text) // shortest + 1, n_values))
-    # The kernel requires spaces at both ends.
-    n_rows = read_rows(
-        np.frombuffer(bytearray(b"\n" + text + b"\n"), np.uint8),
-        np.frombuffer(bytearray(b"".join(names)), np.uint8),
-        np.cumsum([len(name) for name in names], dtype=np.int64),
-        counts,
-        rows,
-    )
-    return rows[:n_rows].copy() if n_rows > 0 else None
-
-
-def _split_by_bone(blocks: list[Floats], layout: Layout, figure: Figure) -> dict[str, Floats]:
-    """Return the values of each bone, none if it is not in the file."""
-    # Column 0 holds the number of the frame.
-    ends = np.cumsum([1, *layout.values()])
-    columns = dict(zip(layout, starmap(slice, pairwise(ends.tolist())), strict=True))
-    return {
-        name: np.concatenate([rows[:, columns.get(name, slice(0))] for rows in blocks])
-        for name in figure.bones
-    }
-
-
-def _read_line_by_line(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
-    """Return the values for any layout; errors state the line.
+def _read_frames(content: FileContent, start: int, figure: Figure) -> dict[str, Floats]:
+    """Return the values of each bone (frames, dofs) from the bytes after ``start``.
 
     A fault in the last line, or bones missing in the last frame, are signs of a truncated file:
     that frame is dropped with a warning. Other faults are errors.
     """
-    frames: list[dict[str, list[float]]] = []
-    first = content.line_at(start)
-    lines = content.data[start:].rstrip().splitlines()
-    last = first + len(lines) - 1
-    first_line, label = first, 0
-    fault: ReadError | None = None
-    for number, line in enumerate(lines, first):
-        words = line.split()
-        if not words or words[0].startswith(b"#"):
-            continue
-        if len(words) == 1 and words[0].isdigit():
-            if frames:
-                _check_complete(content, frames, first_line)
-            before, label = label, _parse_frame_number(content, words[0], number)
-            if frames and label != before + 1:
-                content.warn(f"frame {label} follows {before}", number)
-            first_line = number
-            frames.append({})
-            continue
-        try:
-            _add_bone(frames[-1], words, figure)
-        except ValueError as error:
-            fault = content.error(str(error), number)
-            # Only a fault in the last line may be due to truncation.
-            if number < last:
-                raise fault from None
-    try:
-        _check_complete(content, frames, first_line)
-    except ReadError as error:
-        fault = fault or error
-    if fault is not None:
-        if len(frames) == 1:
-            raise fault
-        frames.pop()
-        content.warn(f"{fault.reason}: the last frame is truncated and left out", fault.line)
-    absent = [n for n, bone in figure.bones.items() if bone.dof and n not in frames[0]]
+    first: Frame = {}
+    order: list[str] = []
+    parser: _FrameParser | None = None
+    rows = array("d")
+    label = n_frames = counted = 0
+    line = 1
+    head = _FRAME.search(content.data, start)
+    while head:
+        following = _FRAME.search(content.data, head.end())
+        # Counting the lines from the start of the file for each frame would take long.
+        line += content.data.count(b"\n", counted, head.start())
+        counted = head.start()
+        before, label = label, _parse_frame_number(content, head, line)
+        if n_frames and label != before + 1:
+            content.warn(f"frame {label} follows {before}", line)
+        span = slice(head.end(), following.start() if following else None)
+        row = parser.parse(content.data[span]) if parser else None
+        if row is None:
+            try:
+                frame = _parse_lines(content, span, line, figure)
+                _check_complete(content, frame, first, line)
+            except ReadError as error:
+                # Only a fault at the end of the file may be due to truncation.
+                last_line = content.line_at(len(content.data.rstrip()))
+                if following or error.line not in (line, last_line) or not n_frames:
+                    raise
+                reason = f"{error.reason}: the last frame is truncated and left out"
+                content.warn(reason, error.line)
+                break
+            if not n_frames:
+                first = frame
+                order = [*first, *(name for name in figure.bones if name not in first)]
+                is_complete = all(name in first or not figure.bones[name].dof for name in order)
+                parser = _FrameParser(content, first) if is_complete else None
+            row = [x for n in order for x in frame.get(n, [0.0] * len(figure.bones[n].dof))]
+        rows.extend(row)
+        n_frames, head = n_frames + 1, following
+        # Loading numba would take longer than parsing without it.
+        if parser and following and "numba" in sys.modules:
+            block, stop = parser.parse_compiled(following.start() - 1, label)
+            rows.frombytes(block.tobytes())
+            n_frames, label = n_frames + len(block), label + len(block)
+            head = _FRAME.search(content.data, stop)
+    absent = [name for name, bone in figure.bones.items() if bone.dof and name not in first]
     if absent:
         content.warn(f"no values for {', '.join(absent)}: 0 used")
-    return {
-        name: np.array([frame.get(name, [0.0] * len(bone.dof)) for frame in frames])
-        for name, bone in figure.bones.items()
-    }
+    stops = np.cumsum([len(figure.bones[name].dof) for name in order])
+    columns = np.split(np.asarray(rows).reshape(n_frames, -1), stops[:-1], axis=1)
+    return dict(zip(order, columns, strict=True))
 
 
-def _parse_frame_number(content: FileContent, word: bytes, line: int) -> int:
+def _parse_frame_number(content: FileContent, head: re.Match[bytes], line: int) -> int:
+    word = head.group().strip()
     if len(word) > 18:
         raise content.error(f"{word[:18].decode()}... is not a frame number", line)
     return int(word)
 
 
-def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure) -> None:
+class _FrameParser:
+    """Parse frames whose bones are in the same order as in ``frame``."""
+
+    def __init__(self, content: FileContent, frame: Frame) -> None:
+        self.names = [name.encode() for name in frame]
+        is_name = [i == 0 for values in frame.values() for i in range(1 + len(values))]
+        self.is_name, self.is_value = is_name, [not each for each in is_name]
+        # Arrays for the compiled parser.
+        self.text = np.frombuffer(content.data, np.uint8)
+        self.joined_names = np.frombuffer(b"".join(self.names), np.uint8)
+        self.name_ends = np.cumsum([len(name) for name in self.names])
+        self.counts = np.array([len(values) for values in frame.values()])
+        self.rows = np.empty((ROWS, sum(self.is_value)))
+
+    def parse(self, text: bytes) -> list[float] | None:
+        """Return the values of a frame, None if it has another layout or an invalid number."""
+        words = text.split()
+        has_names = [*compress(words, self.is_name)] == self.names
+        if len(words) != len(self.is_name) or not has_names:
+            return None
+        try:
+            return parse_numbers([*compress(words, self.is_value)])
+        except ValueError:
+            return None
+
+    def parse_compiled(self, start: int, label: int) -> tuple[Floats, int]:
+        """Return the values of the next frames (frames, values), and the offset of the rest.
+
+        ``start`` is the end of the line before them, ``label`` the number before theirs.
+        """
+        from kineme.formats.skeletons._amc_kernels import read_rows
+
+        arrays = self.joined_names, self.name_ends, self.counts, self.rows
+        n_frames, stop = read_rows(self.text, start, label, *arrays)
+        return self.rows[:n_frames], stop
+
+
+def _parse_lines(content: FileContent, span: slice, first_line: int, figure: Figure) -> Frame:
+    """Return the values of a frame of any layout; errors state the line."""
+    frame: Frame = {}
+    for number, line in enumerate(content.data[span].splitlines(), first_line):
+        words = line.split()
+        if words and not words[0].startswith(b"#"):
+            try:
+                _add_bone(frame, words, figure)
+            except ValueError as error:
+                raise content.error(str(error), number) from None
+    return frame
+
+
+def _add_bone(frame: Frame, words: list[bytes], figure: Figure) -> None:
     """Add the line of a bone to the values of a frame; ValueError if the skeleton differs."""
     name = words[0].decode("utf-8", "replace")
     if name not in figure.bones:
@@ -381,10 +322,10 @@ def _add_bone(frame: dict[str, list[float]], words: list[bytes], figure: Figure)
     frame[name] = values
 
 
-def _check_complete(content: FileContent, frames: list[dict[str, list[float]]], line: int) -> None:
-    """Raise ReadError if the last frame is empty or lacks a bone of the first one."""
-    missing = [name for name in frames[0] if name not in frames[-1]]
-    if missing or not frames[-1]:
+def _check_complete(content: FileContent, frame: Frame, first: Frame, line: int) -> None:
+    """Raise ReadError if a frame is empty or lacks a bone of the first one."""
+    missing = [name for name in first if name not in frame]
+    if missing or not frame:
         bone = missing[0] if missing else "any bone"
         raise content.error(f"a frame has no values for {bone}", line)
 
@@ -512,16 +453,8 @@ def _list_bones(
         has_common_tip = j > 0 and len(offsets) > 0 and bool(np.ptp(offsets, axis=0).max() < RIGID)
         tip = offsets[0] if has_common_tip else np.zeros(3)
         parent = "" if j == 0 else parent_names[j]
-        bones.append(
-            Bone(
-                names[j],
-                parent,
-                tip=tip,
-                joint=j,
-                slides=j == 0 or bool(slides[j]),
-                frame=frames[j],
-            )
-        )
+        has_positions = j == 0 or bool(slides[j])
+        bones.append(Bone(names[j], parent, tip, j, slides=has_positions, frame=frames[j]))
         for child, offset in zip(skeleton.children[j], offsets, strict=True):
             parent_names[child] = names[j]
             if not has_common_tip and offset.any():

@@ -84,14 +84,16 @@ def read_asf(content: FileContent) -> Figure:
         if bone.name in bones:
             raise content.error(f"a second bone is called {bone.name!r}", bone.line)
         bones[bone.name] = bone
-    parents = _parse_parents(content, sections["hierarchy"], bones)
-    order = _order_bones(content, parents, bones)
-    return Figure(
-        {name: bones[name] for name in order},
-        _build_skeleton(order, parents, bones),
-        scale,
-        angle_unit,
-    )
+    children = _parse_children(content, sections["hierarchy"], bones)
+    order = list(order_depth_first([ROOT], children.__getitem__))
+    ordered = {name: bones[name] for name, _ in order}
+    # Bones in a cycle are never reached from the root.
+    if lost := [name for name in bones if name not in ordered]:
+        raise content.error(
+            f"bone {lost[0]!r} is not connected to the root: its line in :hierarchy is "
+            "missing or circular"
+        )
+    return Figure(ordered, _build_skeleton(order, children, bones), scale, angle_unit)
 
 
 def _split_sections(content: FileContent) -> dict[str, list[Line]]:
@@ -203,61 +205,47 @@ def read_values(
     return values
 
 
-def _parse_parents(
+def _parse_children(
     content: FileContent, lines: list[Line], bones: dict[str, Bone]
-) -> dict[str, str]:
-    """Return the parent of each bone from the section ``:hierarchy``."""
-    parents: dict[str, str] = {}
-    for number, (parent, *children) in lines:
-        if not children and parent.lower() in ("begin", "end"):
+) -> dict[str, list[str]]:
+    """Return the children of each bone from the section ``:hierarchy``."""
+    children: dict[str, list[str]] = {name: [] for name in bones}
+    placed = {ROOT}
+    for number, (parent, *names) in lines:
+        if not names and parent.lower() in ("begin", "end"):
             continue
-        for name in (parent, *children):
+        for name in (parent, *names):
             if name not in bones:
                 raise content.error(f"bone {name!r} is not in :bonedata", number)
-        for name in children:
-            if name in parents or name == ROOT:
+        for name in names:
+            if name in placed:
                 raise content.error(f"bone {name!r} has a second parent, {parent!r}", number)
-            parents[name] = parent
-    return parents
+            placed.add(name)
+            children[parent].append(name)
+    return children
 
 
-def _order_bones(
-    content: FileContent, parents: dict[str, str], bones: dict[str, Bone]
-) -> list[str]:
-    """Return bones depth first, siblings in the order of the hierarchy."""
-    children: dict[str, list[str]] = {name: [] for name in bones}
-    for name, parent in parents.items():
-        children[parent].append(name)
-    order = [name for name, _ in order_depth_first([ROOT], children.__getitem__)]
-    reached = set(order)
-    # Bones in a cycle are never reached from the root.
-    lost = [name for name in bones if name not in reached]
-    if lost:
-        raise content.error(
-            f"bone {lost[0]!r} is not connected to the root: its line in :hierarchy is "
-            "missing or circular"
-        )
-    return order
+def _build_skeleton(
+    order: list[tuple[str, int]], children: dict[str, list[str]], bones: dict[str, Bone]
+) -> Skeleton:
+    """Return a joint at the start of each bone, and an end site at the tip of each leaf.
 
-
-def _build_skeleton(order: list[str], parents: dict[str, str], bones: dict[str, Bone]) -> Skeleton:
-    """Return a joint at the start of each bone, and an end site at the tip of each leaf."""
+    ``order`` holds the bones, parents first, with the index of each one's parent.
+    """
     names: list[str] = []
-    indices: dict[str, int] = {}
-    joint_parents: list[int] = []
+    parents: list[int] = []
     offsets: list[Floats] = []
-    ends = []
-    with_children = set(parents.values())
-    for name in order:
-        parent = parents.get(name)
-        joint_parents.append(-1 if parent is None else indices[parent])
-        offsets.append(np.zeros(3) if parent is None else bones[parent].tip)
-        indices[name] = len(names)
+    ends: list[int] = []
+    joints: list[int] = []  # of the bones
+    for name, parent in order:
+        joints.append(len(names))
         names.append(name)
+        parents.append(-1 if parent < 0 else joints[parent])
+        offsets.append(np.zeros(3) if parent < 0 else bones[order[parent][0]].tip)
         # A leaf bone of non-zero length gets an end site.
-        if name not in with_children and bones[name].tip.any():
-            joint_parents.append(len(names) - 1)
-            offsets.append(bones[name].tip)
+        if not children[name] and bones[name].tip.any():
             ends.append(len(names))
             names.append(f"{name}_end")
-    return Skeleton(tuple(names), tuple(joint_parents), np.array(offsets), frozenset(ends))
+            parents.append(joints[-1])
+            offsets.append(bones[name].tip)
+    return Skeleton(tuple(names), tuple(parents), np.array(offsets), frozenset(ends))

@@ -52,7 +52,12 @@ from kineme.formats.files import (
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format, Sketch
 from kineme.formats.scenes.characters import Character, SceneNode, find_character
-from kineme.formats.skeletons.placing import build_motion, order_depth_first, require_frame_memory
+from kineme.formats.skeletons.placing import (
+    RIGID,
+    build_motion,
+    order_depth_first,
+    require_frame_memory,
+)
 from kineme.formats.units import infer_rate, iterate_blocks
 from kineme.recordings import Motion, Provenance, Skeleton
 from kineme.recordings.joint_names import find_joints
@@ -64,13 +69,6 @@ CHUNK = 1 << 20
 """Bytes of text that are split into words at a time."""
 UNIT = 0.01
 """Metres per unit for recordings from other formats."""
-RIGID = 5e-7
-"""Metres by which a bone may differ from its offset and still count as rigid.
-
-Single-precision animations differ this much from the rest pose of their file. Along twenty bones it
-adds up to 0.01 mm.
-"""
-
 POSITIONS: list[Channel] = [(axis, "position") for axis in "xyz"]
 ROTATIONS: list[Channel] = [(axis, "rotation") for axis in "zyx"]
 """Channels of joints that did not come from a BVH."""
@@ -175,9 +173,7 @@ def _find_character(content: FileContent, joints: Sequence[Joint], person: str |
     if sum(bool(find_joints(names, [("pelvis",)])) for names in trees) < 2:
         return Character([*range(len(joints))], [], "", [])
     nodes = [
-        SceneNode(
-            joint.name, joint.parent, bone=True, geometry=False, animated=bool(joint.channels)
-        )
+        SceneNode(joint.name, joint.parent, bone=True, animated=bool(joint.channels))
         for joint in joints
     ]
     return find_character(content, nodes, person)
@@ -451,11 +447,8 @@ def write_bvh(motion: Motion, path: Path) -> None:
     unit, inverse = UNIT, rot.IDENTITY
     known: Mapping[str, Sequence[Channel]] = {}
     if skeleton.rig is not None and skeleton.rig.channels and skeleton.rig.is_plain:
-        unit, inverse, known = (
-            skeleton.rig.unit,
-            rot.conjugate(skeleton.rig.turn),
-            skeleton.rig.channels,
-        )
+        unit, known = skeleton.rig.unit, skeleton.rig.channels
+        inverse = rot.conjugate(skeleton.rig.turn)
         # Convert the axes of both the world and the joints back to the file's.
         turns = rot.multiply(rot.multiply(inverse, turns), skeleton.rig.turn)
     translations, offsets = (rot.rotate(inverse, each) / unit for each in (translations, offsets))
@@ -477,7 +470,9 @@ def write_bvh(motion: Motion, path: Path) -> None:
                 else angles[:, axes.index(axis)]
                 for axis, kind in channels[j]
             ]
-    names = _name_joints(motion, fixed_ends, path)
+    named = [j for j in range(skeleton.n_joints) if j not in fixed_ends]
+    clean = clean_names(path, [skeleton.names[j] for j in named], _clean_name)
+    names = dict(zip(named, clean, strict=True))
     head = "\n".join(_format_hierarchy(skeleton, offsets, order, channels, names))
     timing = f"MOTION\nFrames: {motion.n_frames}\nFrame Time: {1 / motion.fps!r}\n"
     save(path, [head, "\n", timing, *format_table(np.stack(columns, axis=1))])
@@ -507,22 +502,14 @@ def compute_local_pose(
     parent, offsets (joints, 3) at rest, and whether the translation of each joint varies. Raise
     WriteError if the motion has no rotations, which ``what`` needs.
     """
-    require_rotations(motion, path, what)
     aligned = align_to_rest(motion)
     turns, offsets = require_rotations(aligned, path, what), aligned.skeleton.offsets
     translations = compute_local_translations(aligned.skeleton, motion.positions, turns)
     return turns, translations, offsets, np.abs(translations - offsets).max(axis=(0, 2)) > RIGID
 
 
-def _name_joints(motion: Motion, ends: set[int], path: Path) -> dict[int, str]:
-    """Return the names of joints that a line can hold; end sites have none."""
-    named = [j for j in range(motion.skeleton.n_joints) if j not in ends]
-    names = clean_names(path, [motion.skeleton.names[j] for j in named], _clean_name)
-    return dict(zip(named, names, strict=True))
-
-
 def _clean_name(name: str) -> str:
-    """Return a name without braces, and without the text that starts the motion section."""
+    """Return a name without line breaks, braces and the text that starts the motion section."""
     plain = re.sub(r"[{}\s]+", " ", name).strip()
     return re.sub(r"(\bmotion frames) ?:", r"\1", plain, flags=re.IGNORECASE)
 
