@@ -61,7 +61,8 @@ def test_joints_and_channels_may_stand_in_the_same_layouts(
     path = tmp_path / "a.csv"
     text = join_rows(*head, separator=separator, comma=comma)
     text = text.replace("\n", "\n\n") if layout == "blank lines" else text
-    path.write_text(text, encoding=encoding)
+    line_end = "\r\n" if layout == "sep" else "\n"  # spreadsheets write both
+    path.write_text(text, encoding=encoding, newline=line_end)
     found = kineme.read(path, **({} if joint == "acc" else {"unit": "m", "up": "y"}))
     expected = np.array(ROWS)[:, 1:]
     assert found.fps == 50

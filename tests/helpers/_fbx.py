@@ -1,4 +1,4 @@
-"""Build FBX files for tests and benchmarks: nodes, written as binary or as text."""
+"""Build FBX files for tests: nodes, written as binary or as text."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
         nodes,
         character.joints,
         Pose(scene, take, sampler).compute_transform,
-        Pose(scene, REST_TAKE, sampler).compute_bound,
+        Pose(scene, REST_TAKE, sampler).compute_bind_transform,
         len(frame_times),
         fps,
         unit=options.unit or CENTIMETRE * (factor if factor > 0 else 1.0),

@@ -267,18 +267,18 @@ class Pose:
         self.tracks = scene.find_tracks(take)
         self.layers = {number: scene.get_properties(number) for number in take.layers}
 
-    def compute_bound(self, index: int) -> Transform:
+    def compute_bind_transform(self, index: int) -> Transform:
         """Return the transform of a model in the bind pose, or in this pose if it has none."""
         model = self.scene.models[index]
         if model.number not in self.scene.binds:
             return self.compute_transform(index)
         # Bind poses are in the world: solve for the transform relative to the parent.
         local = np.linalg.solve(
-            self._compute_bound_matrix(model.parent), self._compute_bound_matrix(index)
+            self._compute_bind_matrix(model.parent), self._compute_bind_matrix(index)
         )
         return decompose(np.asarray(local, np.float64))
 
-    def _compute_bound_matrix(self, index: int) -> Floats:
+    def _compute_bind_matrix(self, index: int) -> Floats:
         """Return the world matrix of a model in the bind pose; index -1 is the ground."""
         if index < 0:
             return np.eye(4)
@@ -286,7 +286,7 @@ class Pose:
         if (bind := self.scene.binds.get(model.number)) is not None:
             return bind
         local = [part[None] for part in self.compute_transform(index)[:3]]
-        return np.asarray(self._compute_bound_matrix(model.parent) @ compose(*local)[0], np.float64)
+        return np.asarray(self._compute_bind_matrix(model.parent) @ compose(*local)[0], np.float64)
 
     def compute_transform(self, index: int) -> Transform:
         """Return the transform of the model at an index of the scene, relative to its parent."""

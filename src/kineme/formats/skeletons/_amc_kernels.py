@@ -12,7 +12,7 @@ TENS = 10.0 ** np.arange(23)  # powers of ten that are exact as float64
 EXACT = 1 << 53  # integers up to this are exact as float64
 TAB, NEWLINE, RETURN, SPACE = 9, 10, 13, 32
 PLUS, MINUS, POINT, ZERO, NINE = 43, 45, 46, 48, 57
-NOT_HERE = -1  # functions return this offset for another text, and for this offset
+NOT_HERE = -1  # returned if the text differs, and if the given offset is this one
 BYTES = "Array(uint8, 1, 'C', readonly=True)"
 
 

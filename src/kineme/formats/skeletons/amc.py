@@ -263,11 +263,11 @@ class _FrameParser:
         self.names = [name.encode() for name in frame]
         is_name = [i == 0 for values in frame.values() for i in range(1 + len(values))]
         self.is_name, self.is_value = is_name, [not each for each in is_name]
-        # Arrays for the compiled parser.
+        # Arrays for the compiled parser, whose integers have 64 bits on every system.
         self.text = np.frombuffer(content.data, np.uint8)
         self.joined_names = np.frombuffer(b"".join(self.names), np.uint8)
-        self.name_ends = np.cumsum([len(name) for name in self.names])
-        self.counts = np.array([len(values) for values in frame.values()])
+        self.name_ends = np.cumsum([len(name) for name in self.names], dtype=np.int64)
+        self.counts = np.array([len(values) for values in frame.values()], np.int64)
         self.rows = np.empty((ROWS, sum(self.is_value)))
 
     def parse(self, text: bytes) -> list[float] | None:
