@@ -410,7 +410,7 @@ def library_tables() -> str:
 
 
 def constants_table(method: str) -> str:
-    """Return a row for each constant of a method's presets, with the first clause of its help."""
+    """Return a row for each constant of a method's presets; equal values are shown once."""
     presets: list[Preset] = [each for each in kineme.PRESETS.values() if each.method == method]
     described = {each.name: each for preset in presets for each in preset.constants()}
     heads: dict[tuple[str, ...], list[str]] = {}  # presets with equal values share a column
@@ -419,9 +419,9 @@ def constants_table(method: str) -> str:
         heads.setdefault(tuple(values.get(name, "") for name in described), []).append(preset.name)
     head = [", ".join(f"`{name}`" for name in names) for names in heads.values()]
     rows = [["constant", *head, "unit", "meaning"]]
-    for constant, *cells in zip(described.values(), *heads, strict=True):
-        meaning = constant.help.partition(";")[0]
-        rows.append([f"`{constant.name}`", *cells, constant.unit, meaning])
+    for constant, first, *others in zip(described.values(), *heads, strict=True):
+        cells = [first, *("" if value == first else value for value in others)]
+        rows.append([f"`{constant.name}`", *cells, constant.unit, constant.help])
     return markdown_table(rows)
 
 

@@ -57,24 +57,26 @@ class KinemeConstants(Preset):
         limits=Limits(0.0, 500.0, above=True), default=(0.3, 1.0, 2.4, 7.0, 20.0),
     )  # fmt: skip
     shared: tuple[float, ...] = constant(
-        "per view: largest variance that channels share, where that of a channel is 1",
+        "per view: variance that channels share is reduced to at most this, where one channel "
+        "has 1; from the number of channels on: not reduced",
         limits=SOME_LENGTH, fine=True, default=(1e4, 1e4, 1.0, 0.3, 0.3),
     )  # fmt: skip
     weights: tuple[float, ...] = constant(
-        "per view: statistics are divided by their deviation to this power", limits=SHARE,
+        "per view: statistics are divided by their scale to this power", limits=SHARE,
         fine=True, default=(0.5, 1.0, 1.0, 0.5, 1.0),
     )  # fmt: skip
     restless_over: tuple[float, ...] = constant(
-        "per view: the deviation of a statistic is its mean change over this; 0: that of its band",
+        "per view: the scale of a statistic is its mean change over this; 0: the deviation of "
+        "all means, or of its band",
         unit="s", limits=TIME, fine=True, default=(0.0, 1.0, 0.0, 0.0, 1.0),
     )  # fmt: skip
     view_margin: float = constant(
-        "the last view is taken in place of the first if its mutual information with all views is "
-        "higher by more than this, in the mean", limits=SHARE, fine=True, default=0.06,
+        "the last view replaces the first if it agrees with all views better by more than this "
+        "(mean mutual information)", limits=SHARE, fine=True, default=0.06,
     )  # fmt: skip
     half_views: bool = constant(
-        "whether views of half of the channels count in this as well", limits=None, fine=True,
-        default=False,
+        "whether views of half of the channels also vote on which view is taken",
+        limits=None, fine=True, default=False,
     )  # fmt: skip
     velocity_weight: float = constant(
         "weight of the velocities of joints; that of their positions is 1", limits=FACTOR,
@@ -86,20 +88,20 @@ class KinemeConstants(Preset):
         limits=SOME_TIME, fine=True, default=600.0,
     )  # fmt: skip
     compared_within: float = constant(
-        "samples are compared within this of each other, for the median distance and for the "
+        "samples farther apart than this are not compared, for the median distance and the "
         "finest segments", unit="s", limits=SOME_TIME, fine=True, default=60.0,
     )  # fmt: skip
     fine_cost: float = constant(
-        "cost of a border of the finest level: time at the median distance", unit="s",
+        "cost of a border of the finest level, as seconds at the median distance", unit="s",
         limits=TIME, fine=True, default=0.4,
     )  # fmt: skip
     segment_cost: float = constant(
-        "cost of a segment: time at the median distance", unit="s", limits=TIME,
+        "cost of a segment, as seconds at the median distance", unit="s", limits=TIME,
         slider=(0.02, 2.0, 0.02), default=0.15,
     )  # fmt: skip
     cluster_cost: float = constant(
-        "cost of a cluster in a minute: time at the median distance", unit="s", limits=TIME,
-        slider=(0.1, 5.0, 0.1), default=0.66,
+        "cost of a cluster in a recording of one minute, as seconds at the median distance",
+        unit="s", limits=TIME, slider=(0.1, 5.0, 0.1), default=0.66,
     )  # fmt: skip
     cluster_growth: float = constant(
         "power of the duration with which `cluster_cost` grows",
@@ -113,23 +115,26 @@ class KinemeConstants(Preset):
     max_clusters: int = constant("largest number of clusters", limits=SOME, fine=True, default=16)
     # Segments that repeat a movement.
     two_movements: float = constant(
-        "repetitions are two movements where means of the first and of the last ones leave less "
-        "than this share of what one mean leaves", limits=SHARE, fine=True, default=0.65,
+        "repetitions count as two movements if separate means of the first and the last leave "
+        "less than this share of what one common mean leaves",
+        limits=SHARE, fine=True, default=0.65,
     )  # fmt: skip
     same_channels: float = constant(
-        "repetitions are two movements where means of which channels move, of the first and of the "
-        "last ones, leave less than this share of what one mean leaves", limits=SHARE, fine=True,
-        default=0.45,
+        "the same test as `two_movements`, for how strongly each channel moves",
+        limits=SHARE, fine=True, default=0.45,
     )  # fmt: skip
     chance_count: float = constant(
-        "repetitions that may be similar by chance", limits=SOME_FACTOR, fine=True, default=4.0
+        "up to this number, repetitions may be similar by chance",
+        limits=SOME_FACTOR,
+        fine=True,
+        default=4.0,
     )
     chance_duration: float = constant(
-        "fewer repetitions than `chance_count` are not chance if together they last longer than "
-        "this", unit="s", limits=SOME_TIME, fine=True, default=14.0,
+        "similarity of few repetitions counts from this total duration on, even below "
+        "`chance_count`", unit="s", limits=SOME_TIME, fine=True, default=14.0,
     )  # fmt: skip
     chance_period: float = constant(
-        "shorter repetitions make no difference between samples, and save nothing", unit="s",
+        "repetitions shorter than this do not lower the cost of a segment", unit="s",
         limits=SOME_TIME, fine=True, default=1.7,
     )  # fmt: skip
     max_repetition: float = constant(
@@ -137,41 +142,47 @@ class KinemeConstants(Preset):
         limits=SOME_TIME, default=8.0,
     )  # fmt: skip
     same_set: float = constant(
-        "likeness of repetitions across a border, relative to that beside it, from which both "
-        "sides are one set; more than 1: never", limits=SOME_FACTOR, fine=True, default=0.8,
+        "neighbours are one set if repetitions across their border are at least this similar, "
+        "relative to those within each side; more than 1: never",
+        limits=SOME_FACTOR, fine=True, default=0.8,
     )  # fmt: skip
     # Borders, to the frame.
     border_shift: float = constant(
-        "share by which a border is moved from where means over `averaging` put it to where single "
-        "frames do", limits=SHARE, fine=True, default=0.6,
+        "how far a border moves from where means over `averaging` put it (0) to where single "
+        "frames do (1)", limits=SHARE, fine=True, default=0.6,
     )  # fmt: skip
     transition_cost: float = constant(
-        "least gain of a transition over a border: log-likelihood times seconds, mean of channels",
+        "a transition replaces a border if it raises the log-likelihood by more than this (mean "
+        "of channels, summed over seconds)",
         unit="s", limits=SOME_FACTOR, fine=True, default=1.2,
     )  # fmt: skip
     # Repetitions.
     noise_share: float = constant(
-        "share of the distances of a pose below which a dip of them is noise", limits=SHARE,
-        fine=True, default=0.05,
+        "dips of the distance to a pose are noise if shallower than this share of its usual "
+        "largest value", limits=SHARE, fine=True, default=0.05,
     )  # fmt: skip
     centering: float = constant(
-        "share of its mean pose that is subtracted from each repetition before they are compared; "
-        "at 1 only movement counts, at 0 posture as much", limits=SHARE, fine=True, default=1.0,
+        "share of its mean pose that is subtracted from each repetition before they are "
+        "compared; at 1 only movement counts, at 0 posture as well",
+        limits=SHARE, fine=True, default=1.0,
     )  # fmt: skip
     end_distance: float = constant(
-        "an end belongs to a repetition while its square distance is below this share of the "
-        "variance", limits=SHARE, fine=True, default=0.55,
+        "an incomplete repetition at either end is followed while its squared distance from the "
+        "mean repetition is below this share of the variance",
+        limits=SHARE, fine=True, default=0.55,
     )  # fmt: skip
     end_scatter: float = constant(
-        "an end counts in full up to this many times the mean square distance of repetitions from "
-        "their mean, and less beyond", limits=FACTOR, fine=True, default=2.0,
+        "poses of such an end count fully up to this many times the scatter of the repetitions, "
+        "and less beyond", limits=FACTOR, fine=True, default=2.0,
     )  # fmt: skip
     max_unexplained: float = constant(
-        "where the mean of any number of repetitions would leave more than this share unexplained, "
-        "similarity is chance", limits=SHARE, fine=True, default=0.7,
+        "a division is rejected if the mean repetition leaves more than this share of the "
+        "activity unexplained; few repetitions may leave more",
+        limits=SHARE, fine=True, default=0.7,
     )  # fmt: skip
     same_cost: float = constant(
-        "divisions that cost no more than this above the best are averaged for the length of ends",
+        "the number of repetitions is a mean over the divisions that cost at most this more "
+        "than the best",
         limits=FACTOR, fine=True, default=0.1,
     )  # fmt: skip
     min_similarity: float = constant(
@@ -199,7 +210,7 @@ class KinemeConstants(Preset):
         default=0.8,
     )  # fmt: skip
     min_recurrence: float = constant(
-        "least similarity times movement time of an event, so its shortest length", unit="s",
+        "shortest event: its similarity, summed over movement time, must reach this", unit="s",
         limits=SOME_TIME, slider=(0.2, 2.0, 0.05), default=0.6,
     )  # fmt: skip
 

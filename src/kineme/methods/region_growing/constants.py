@@ -89,7 +89,7 @@ class RegionGrowingConstants(Preset):
         limits=Limits(1.0, 1000.0), default=2.0,
     )  # fmt: skip
     symmetry: float = constant(
-        "share of a path that must also match in the other direction",
+        "share of a path that must also match when its two spans are exchanged",
         limits=SOME_SHARE,
         default=0.5,
     )
