@@ -94,8 +94,6 @@ class RecentPast:
     examples: dict[int, Floats] = field(default_factory=dict)
     # (spans, 3): first frame, frame after the last, and cluster of the segments of the last look.
     known: Ints = field(default_factory=lambda: np.empty((0, 3), np.int64))
-    # Seconds of each new cluster when it was last compared with the examples.
-    compared: dict[int, float] = field(default_factory=dict)
     _blocks: list[tuple[Floats, Masks]] = field(default_factory=list)
 
     def append(self, values: Floats, missing: Masks) -> None:
@@ -142,16 +140,17 @@ class RecentPast:
             {0: new},
             next_number=next_number,
         )
-        lengths = np.bincount(clusters, stops - starts)
-        unseen = [
-            local
-            for local, number in given.items()
-            if number > finals.highest and lengths[local] >= 2 * self.compared.get(number, 0)
-        ]
-        if unseen and self.examples:
-            given |= self._recognise(found, unseen, set(given.values()))
-            self.compared |= {given[local]: float(lengths[local]) for local in unseen}
-        self.compared = {k: self.compared[k] for k in given.values() if k in self.compared}
+        # Numbers without a final activity in the recent past may change as more is seen of them.
+        final = {row.cluster for row in finals.last_activities(self.start)}
+        provisional = [local for local, number in given.items() if number not in final]
+        if provisional and self.examples:
+            others = {number for number in given.values() if number in final}
+            matched = self._recognise(found, provisional, others)
+            for local in provisional:
+                if local not in matched and given[local] in matched.values():
+                    highest = max(finals.highest, *given.values(), *matched.values())
+                    matched[local] = highest + 1
+            given |= matched
         numbers = range(int(table.cluster.max()) + 1)
         named = np.array([given.get(local, -1) for local in numbers], np.int64)
         rows = np.column_stack(
@@ -197,7 +196,9 @@ class RecentPast:
         coming[:, 0] = np.maximum(coming[:, 0], finals.frontier)
         return np.concatenate([np.array(final, np.int64).reshape(-1, 3), coming])
 
-    def _recognise(self, found: Segmentation, unseen: list[int], taken: set[int]) -> dict[int, int]:
+    def _recognise(
+        self, found: Segmentation, clusters: list[int], taken: set[int]
+    ) -> dict[int, int]:
         """Return the numbers of clusters that are near an example of an older cluster."""
         older = {number: rows for number, rows in self.examples.items() if number not in taken}
         view, frames, unit = self._compute_view(np.concatenate([*older.values(), self.values]))
@@ -215,8 +216,8 @@ class RecentPast:
             return np.flatnonzero(chosen & is_inside if (chosen & is_inside).any() else chosen)
 
         examples = {number: list_samples(i) for i, number in enumerate(older)}
-        clusters = {local: list_samples(local + len(older)) for local in unseen}
-        return _match_nearest(view, unit, examples, clusters)
+        compared = {local: list_samples(local + len(older)) for local in clusters}
+        return _match_nearest(view, unit, examples, compared)
 
     def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float]:
         """Return the view of frames, the frame of each of its samples, and its typical distance."""

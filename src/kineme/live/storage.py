@@ -80,7 +80,6 @@ def save_state(state: StreamState, settings: Mapping[str, Any], path: str | Path
         "intake": {name: value for name, value in intake.items() if name not in arrays},
         "finals": asdict(state.finals),
         "start": past.start,
-        "compared": list(past.compared.items()),
         "before": state.before,
         "announced": asdict(state.announced),
         "numbers": {name: getattr(state, name) for name in NUMBERS},
@@ -108,7 +107,6 @@ def load_state(path: str | PathLike[str]) -> tuple[Settings, Callable[[StreamSta
         state.finals = convert_json(content["finals"], Finals)
         past = state.past
         past.start, past.known = content["start"], arrays["known"]
-        past.compared = dict(content["compared"])
         past.values, past.missing = arrays["values"], arrays["missing"]
         past.examples = {
             int(name.removeprefix(EXAMPLE)): rows
