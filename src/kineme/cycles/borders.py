@@ -132,7 +132,7 @@ class Run:
 
 
 def make_run(features: Features, borders: Floats) -> Run:
-    """Return a run with the borders of a segmentation method."""
+    """Return a run with the borders of a segmentation method, of unknown uncertainty (nan)."""
     return Run(features, borders, np.full(len(borders), np.nan))
 
 

@@ -317,7 +317,11 @@ def anchor_repetitions(
     anchor: ChannelAnchor,
     beside: Sequence[Sequence[Signals]],
 ) -> list[Repetition]:
-    """Return the repetitions from extremes or crossings of a channel."""
+    """Return the repetitions from extremes or crossings of a channel.
+
+    A repetition without an event stays in the list: its start or stop is nan, and ``lacking`` says
+    why.
+    """
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(repetitions):
         movement = get_movement_key(each.segment)

@@ -290,7 +290,8 @@ class Cycles:
         -------
         dict of str to array
             Columns: ``group``, ``channel``, ``percent``, ``n``, ``mean``, ``sd``, ``low``, ``high``
-            (of the mean, with a confidence of 95 %, by Student's t at each point).
+            (of the mean, with a confidence of 95 %, by Student's t at each point). The mean is nan
+            without cycles, the others with fewer than two.
         """
         blocks: list[Columns] = []
         points = self.curves.shape[2]

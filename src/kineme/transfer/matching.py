@@ -161,7 +161,7 @@ class Searched:
 
 
 def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
-    """Return cost and start of the cheapest match that ends with each sample; inf without one."""
+    """Return cost and start of the cheapest match that ends at each sample; inf without a match."""
     short, long = _check_features(example, "example"), _check_features(recording, "recording")
     if short.shape[1] != long.shape[1] or len(short) == 0:
         raise ParameterError(
