@@ -146,7 +146,7 @@ def test_borders_that_are_not_sure_are_left_out_by_rule(cycles) -> None:
     unsure = replace(cycles, columns={**cycles.columns, "border_confidence": confidence})
     assert np.flatnonzero(unsure.exclude_unsure().columns["excluded"] != "").tolist() == [3]
     unknown = replace(cycles, columns={**cycles.columns, "border_confidence": confidence * np.nan})
-    with pytest.raises(ParameterError, match="no start of a cycle has a confidence"):
+    with pytest.raises(ParameterError, match="the starts of these cycles have no confidence"):
         unknown.exclude_unsure()
 
 

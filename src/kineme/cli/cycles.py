@@ -147,17 +147,20 @@ def cycles(
     batch.tables("--segments", segments)  # fail early if there are none
 
     def read_one(path: Path, options: ReadOptions, table: Path | None) -> None:
+        """Read and segment one recording (of one person), and append it to ``parts``."""
         with batch.progress(path) as stage:
             recording, found = read_and_segment(path, options, table, segment_options, stage)
-            # Such as force plates, in the file of a motion.
+            # Analog channels in the file of a motion, such as force plates, can be measured, too.
             is_motion = isinstance(recording, Motion)
             beside = read_analog(path, options) if names and is_motion else None
             analog = [] if beside is None else [beside]
             listed = channels_of(recording, names, beside=analog) if len(batch.paths) > 1 else ()
-        # Rows of labels become repetitions; what kineme found without repetitions has none.
+        # Labels without repetitions: each row is one repetition. A result of kineme without
+        # repetitions is left as it is: its activities are not repetitions.
         is_found = table is None or "preset" in found.provenance
         repetitions = found if is_found else as_repetitions(found)
         channel_names = tuple(channel.name for channel in listed)
+        # `as_repetitions` returns the same object if it changed nothing.
         are_cycles = repetitions is not found
         parts.append(
             _SegmentedRecording(path, recording, repetitions, are_cycles, analog, channel_names)

@@ -62,7 +62,7 @@ def label(
         with batch.catch_errors(path), batch.progress(path) as stage:
             stage("reading")
             motion = read_motion(path, **vars(read_options))
-            added[path] = _label_primitives(motion, table, segment_options, stage)
+            added[path] = _build_knowledge_base(motion, table, segment_options, stage)
     with batch.catch_result_errors(knowledge):
         if added:
             merged = KnowledgeBase.merged(*bases, *added.values())
@@ -72,16 +72,20 @@ def label(
     batch.exit()
 
 
-def _label_primitives(
+def _build_knowledge_base(
     motion: Motion, labels: Path | None, options: SegmentOptions, stage: Progress
 ) -> KnowledgeBase:
-    """Return a knowledge base of the labelled primitives of a recording."""
+    """Return a knowledge base of the labelled primitives of a recording.
+
+    Labels of activities only are given to the primitives that segmentation finds in them.
+    """
     from kineme.transfer import KnowledgeBase, name_primitives
 
-    table = load_or_find_segments(motion, labels, options, stage)
-    if not len(table.primitives):
-        table = name_primitives(load_or_find_segments(motion, None, options, stage), table)
-    return KnowledgeBase.from_recording(motion, table, effectors=options.effectors)
+    labelled = load_or_find_segments(motion, labels, options, stage)
+    if not len(labelled.primitives):
+        found = load_or_find_segments(motion, None, options, stage)
+        labelled = name_primitives(found, labelled)
+    return KnowledgeBase.from_recording(motion, labelled, effectors=options.effectors)
 
 
 def _show(knowledge: Path, added: dict[Path, KnowledgeBase], total: int) -> None:

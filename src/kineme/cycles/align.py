@@ -41,7 +41,7 @@ SMOOTH = 7
 
 
 def align_curves(curves: Floats, alignment: str) -> Floats:
-    """Return aligned curves (cycles, channels, points) of one group; skip those with gaps."""
+    """Return aligned curves (cycles, channels, points) of one group; with gaps unchanged."""
     complete = np.isfinite(curves).all(axis=(1, 2))
     if alignment == LINEAR or complete.sum() < 2:
         return curves

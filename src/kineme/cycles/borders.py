@@ -125,14 +125,14 @@ class Run:
         Cycle lengths are averaged with the period of the run, so that windows follow the pace but
         stay stable while borders are inaccurate.
         """
-        # The first and the last border have a repetition on one side only.
+        # The first and the last border have a repetition on one side only: it stands for both.
         before = self.lengths[max(border - 1, 0)]
         after = self.lengths[min(border, len(self.lengths) - 1)]
         return np.asarray(offsets * np.where(offsets < 0, before, after))
 
 
 def make_run(features: Features, borders: Floats) -> Run:
-    """Return a run with the borders of a segmentation method."""
+    """Return a run with the borders of a segmentation method, of unknown uncertainty (nan)."""
     return Run(features, borders, np.full(len(borders), np.nan))
 
 
@@ -159,8 +159,8 @@ def shift_to_common_phase(runs: list[Run]) -> list[Run]:
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
     runs = _extend_ends(runs)
-    by = _measure_landmark_shift(runs)
-    return [replace(run, borders=run.borders + by * run.period) for run in runs]
+    shift = _measure_landmark_shift(runs)
+    return [replace(run, borders=run.borders + shift * run.period) for run in runs]
 
 
 def _extend_ends(runs: list[Run]) -> list[Run]:
@@ -179,12 +179,13 @@ def _extend_ends(runs: list[Run]) -> list[Run]:
         # A run of two repetitions has no inner one, and keeps its ends.
         usual = float(np.median(lengths)) if len(lengths) else 0.0
         for end, place in ((0, borders[1] - usual), (-1, borders[-2] + usual)):
-            # Variances of the measured place and of the one that the usual length gives.
-            first, second = uncertainty[end] ** 2, (deviation * usual) ** 2
-            if first + second > 0:  # and both are known
+            # Variances of the measured border and of the border that the usual length gives.
+            measured, usual_variance = uncertainty[end] ** 2, (deviation * usual) ** 2
+            total = measured + usual_variance
+            if total > 0:  # and both are known
                 # Mean weighted by the inverse variances, and its deviation.
-                borders[end] = (second * borders[end] + first * place) / (first + second)
-                uncertainty[end] = np.sqrt(first * second / (first + second))
+                borders[end] = (usual_variance * borders[end] + measured * place) / total
+                uncertainty[end] = np.sqrt(measured * usual_variance / total)
         drawn.append(replace(run, borders=borders, uncertainty=uncertainty) if usual else run)
     return drawn
 
@@ -230,10 +231,11 @@ def _turn_borders(runs: list[Run]) -> list[Run]:
     reference = _average_cycles(max(repeated, key=lambda run: run.n))
     lateness = {run: _measure_lateness(_average_cycles(run), reference) for run in repeated}
 
-    def moves(origin: float) -> float:
+    def sum_moves(origin: float) -> float:
+        """Return how far all borders move, in cycles, if those at this phase stay."""
         return sum(run.n * abs(_wrap_phase(late - origin)) for run, late in lateness.items())
 
-    origin = min(lateness.values(), key=moves)
+    origin = min(lateness.values(), key=sum_moves)
     turned = []
     for run in runs:
         # Runs without a phase of their own are not moved.

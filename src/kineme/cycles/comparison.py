@@ -109,7 +109,11 @@ def is_right(channel: str) -> bool:
 def _compare_values(
     left: Floats, right: Floats, measure: str, *, indexed: bool
 ) -> tuple[float, ...]:
-    """Return number, means, difference with bounds, and symmetry index."""
+    """Return number of pairs, means, difference with bounds, and symmetry index.
+
+    All but the number are nan without pairs. Bounds are nan for one pair. The index is nan if
+    ``indexed`` is False, or if the means do not add up to more than 0.
+    """
     both = np.isfinite(left) & np.isfinite(right)
     n = int(both.sum())
     if n == 0:

@@ -150,7 +150,7 @@ def _split_parts(pitch: Floats, start: int, stop: int, fps: float) -> list[tuple
 
 
 def _find_swing(pitch: Floats) -> tuple[float, float] | None:
-    """Return the frames of foot off and foot strike in a movement between two stands."""
+    """Return the frames of foot off and foot strike between two stands; None without a swing."""
     middle = int(pitch.argmax())
     # A maximum at the very start leaves no heel rise before it.
     if middle < 2 or pitch[middle] <= 0:

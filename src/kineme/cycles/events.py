@@ -347,7 +347,7 @@ def gait(events: Events, recording: Motion | Signals | None = None) -> Columns:
     dict of str to array
         Columns: ``measure``, and for each foot ``left_n``, ``left_mean``, ``left_sd``;
         ``asymmetry_percent``: left minus right relative to the mean of both. Strides much longer
-        than the median are left out.
+        than the median are left out. Values are nan if there are too few strides.
 
     Examples
     --------
@@ -430,7 +430,10 @@ def strides(events: Events, recording: Motion | Signals | None = None) -> Column
 
 
 def _measure_strides(events: Events, side: str, recording: Motion | Signals | None) -> Columns:
-    """Return the measures of each stride of one foot, from strike to strike."""
+    """Return the measures of each stride of one foot, from strike to strike.
+
+    A measure is nan if an event that it needs was missed.
+    """
     strikes, offs = events.at(f"{side} {STRIKE}"), events.at(f"{side} {OFF}")
     others = events.at(f"{OTHER_SIDE[side]} {STRIKE}")
     pairs = np.column_stack([strikes[:-1], strikes[1:]])

@@ -167,15 +167,16 @@ def add_joint_centres(motion: Motion, joints: Mapping[str, int]) -> tuple[Motion
             # Vectors from the line through hip and knee to each marker.
             aside = [remove_along(places[:, j] - knee, knee - hip) for j in markers]
             far = [float(np.median(np.linalg.norm(each, axis=1))) for each in aside]
-            other = result[f"{OTHER_SIDE[side]}_hip"]
-            result[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other
+            other_hip = result[f"{OTHER_SIDE[side]}_hip"]
+            result[f"{side}_thigh"] = markers[int(np.argmax(far))] if markers else other_hip
     return replace(motion, skeleton=extended, positions=positions), result
 
 
 def find_pelvis_axes(motion: Motion) -> tuple[Floats, Floats, Floats] | None:
-    """Return the unit vectors (frames, 3) left, ahead and up of a pelvis with markers, or None.
+    """Return the unit vectors (frames, 3) left, ahead and up of a pelvis; None without markers.
 
-    These are the axes of Plug-in Gait: left along the markers in front, ahead in the plane of all.
+    These are the axes of Plug-in Gait: left along the markers in front, ahead in the plane of all
+    markers.
     """
     pelvis = _find_pelvis(motion.positions, _find_markers(motion))
     return None if pelvis is None else _orient_pelvis(*pelvis[1:])
@@ -187,7 +188,10 @@ def _find_markers(motion: Motion) -> dict[str, int]:
 
 
 def _find_pelvis(places: Floats, marker: Mapping[str, int]) -> tuple[Floats, Floats, Floats] | None:
-    """Return the front middle of a pelvis, and its vectors from right to left and back to front."""
+    """Return the front middle of a pelvis, and its vectors from right to left and back to front.
+
+    Return None if markers are missing.
+    """
     fronts, backs = (
         [marker.get(f"{side}_{part}", -1) for side in SIDES]
         for part in ("waist_front", "waist_back")
@@ -202,6 +206,7 @@ def _find_pelvis(places: Floats, marker: Mapping[str, int]) -> tuple[Floats, Flo
 
 
 def _orient_pelvis(across: Floats, ahead: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the unit vectors left, ahead and up, from the vectors of `_find_pelvis`."""
     left = normalize(across)
     # Ahead without its share of left.
     forward = normalize(remove_along(ahead, left))
@@ -229,20 +234,25 @@ def _find_hips(places: Floats, marker: Mapping[str, int]) -> dict[str, Floats]:
 def _find_knee(
     thigh: Floats, shank: Floats, ends: tuple[Floats, Floats], to_left: Floats
 ) -> Floats | None:
-    """Return the point (frames, 3) about which two bodies rotate, in line with hip and ankle."""
+    """Return the point (frames, 3) about which two bodies rotate, in line with hip and ankle.
+
+    Return None if the knee hardly bends.
+    """
     upper, lower = _find_poses(thigh), _find_poses(shank)
     chosen = np.unique(np.linspace(0, len(thigh) - 1, min(len(thigh), MOST)).astype(np.intp))
     # Evenly spread frames; both rotations and both centres of these only.
-    (turned, centre), (other, below) = ((r[chosen], c[chosen]) for r, c in (upper, lower))
+    (upper_turns, upper_centres), (lower_turns, lower_centres) = (
+        (turns[chosen], centres[chosen]) for turns, centres in (upper, lower)
+    )
     # (3 frames, 6): R1 c1 - R2 c2 = t2 - t1, linear in the local places c1 and c2 (Ehrig, SCoRE).
-    both = np.concatenate([turned, -other], axis=2).reshape(-1, 6)
+    both = np.concatenate([upper_turns, -lower_turns], axis=2).reshape(-1, 6)
     # A hinge leaves one singular value near 0, the axis. A second small one: the knee does not
     # bend.
     if np.linalg.svd(both, compute_uv=False)[4] < BENT * np.sqrt(len(chosen)):
         return None
     # Weak extra equations: c1 near the middle of both bodies, which fixes the place on the axis.
-    pulled = np.concatenate([turned, 0 * other], axis=2).reshape(-1, 6)
-    apart = (below - centre).reshape(-1)
+    pulled = np.concatenate([upper_turns, 0 * lower_turns], axis=2).reshape(-1, 6)
+    apart = (lower_centres - upper_centres).reshape(-1)
     found = np.linalg.lstsq(
         np.concatenate([both, PULL * pulled]), np.concatenate([apart, PULL * apart / 2])
     )[0]
@@ -321,7 +331,7 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     """Return the angle of rotation about an axis from one vector to another.
 
     Degrees, -180 to 180, right-handed. Components of the vectors (frames, 3) along the axis are
-    ignored.
+    ignored; the angle is 0 if nothing else is left of a vector.
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]
     # The triple product with the unit axis: the sine with its sign.

@@ -135,12 +135,12 @@ def cycles(
         channels_of(recording, channels, beside=others)
         for recording, others in zip(items, signals, strict=True)
     ]
-    first = [channel.name for channel in measured[0]]
+    first_names = [channel.name for channel in measured[0]]
     for each, name in zip(measured, names, strict=True):
-        if other := sorted({*first} ^ {channel.name for channel in each}):
+        if differing := sorted({*first_names} ^ {channel.name for channel in each}):
             raise ParameterError(
                 f"{names[0]} and {name} do not have the same channels: "
-                f"{', '.join(other[:8])}; choose channels that both have with channels="
+                f"{', '.join(differing[:8])}; choose channels that both have with channels="
             )
     channel_anchor = parse_channel_anchor(anchor)
     if anchor is None or channel_anchor is not None:
@@ -260,9 +260,9 @@ def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
             ] += 1
     # The most frequent label of a movement names all of its repetitions.
     return {
-        what: counts.most_common(1)[0][0]
-        or prefix + ("no cluster" if what == "" else f"cluster {what}")
-        for what, counts in labels.items()
+        movement: counts.most_common(1)[0][0]
+        or prefix + ("no cluster" if movement == "" else f"cluster {movement}")
+        for movement, counts in labels.items()
     }
 
 
@@ -336,7 +336,8 @@ def _measure_cycles(
     """Return the cycles with statistics and curves of each channel.
 
     ``spans`` holds recording, start and stop (seconds) of each cycle, ``measured`` the channels of
-    each recording, ``right`` the spans for channels of the right side.
+    each recording, ``right`` the spans for channels of the right side. The statistics are added to
+    ``columns``.
     """
     channels = measured[0]
     curves = np.empty((len(spans), len(channels), points))
@@ -369,7 +370,11 @@ def _measure_cycles(
 def _measure_cycle(
     values: Floats, fps: float, start: float, stop: float, points: int
 ) -> tuple[Floats, list[float]]:
-    """Return the curve and the statistics of a cycle; nan if part of it was not recorded."""
+    """Return the curve and the statistics of a cycle.
+
+    If part of the cycle was not recorded, the curve is nan in this part, and all statistics are
+    nan. Both are nan if a border is missing.
+    """
     last = len(values) - 1
     # The last border may lie after the last frame.
     first, end = min(start * fps, last), min(stop * fps, last)

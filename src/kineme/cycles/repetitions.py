@@ -107,11 +107,11 @@ def find_repetitions(
         for segments in _list_runs(table):
             frames = [segments[0].start_frame, *(each.stop_frame for each in segments)]
             run = make_run(fine, np.array(frames) / table.fps)
-            what = get_movement_key(segments[0])
+            movement = get_movement_key(segments[0])
             # Runs without cluster or label are aligned alone; runs with features that are not
             # comparable only with others of their recording.
-            alone = id(run) if what == "" else -1 if fine.comparable else number
-            key = groups[number].get(what, what), fine.values.shape[1], alone
+            alone = id(run) if movement == "" else -1 if fine.comparable else number
+            key = groups[number].get(movement, movement), fine.values.shape[1], alone
             members[key].append((run, segments, number))
     repetitions: list[Repetition] = []
     for runs in members.values():
@@ -317,11 +317,15 @@ def anchor_repetitions(
     anchor: ChannelAnchor,
     beside: Sequence[Sequence[Signals]],
 ) -> list[Repetition]:
-    """Return the repetitions from extremes or crossings of a channel."""
+    """Return the repetitions from extremes or crossings of a channel.
+
+    A repetition without an event stays in the list: its start or stop is nan, and ``lacking`` says
+    why.
+    """
     members: dict[Hashable, list[int]] = {}
     for i, each in enumerate(repetitions):
-        what = get_movement_key(each.segment)
-        members.setdefault(groups[each.recording].get(what, what), []).append(i)
+        movement = get_movement_key(each.segment)
+        members.setdefault(groups[each.recording].get(movement, movement), []).append(i)
     curves = [
         _sample_curve(recording, anchor, others)
         for recording, others in zip(recordings, beside, strict=True)
@@ -374,7 +378,12 @@ def _sample_curve(
 
 
 def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> Floats:
-    """Return the time of a channel's maximum in each repetition, near its usual phase."""
+    """Return the time in seconds of a channel's maximum in each repetition.
+
+    The maximum is searched within half a cycle of its usual phase, that of the mean curve of all
+    repetitions without gaps. The time is nan if this window has a gap, or if all repetitions have
+    gaps.
+    """
     # Without 100 %, which is 0 % of the next cycle.
     share = np.linspace(0, 1, 101)[:-1]
     sampled = []
@@ -383,9 +392,9 @@ def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> 
         at = (each.start + share * (each.stop - each.start)) * fps
         sampled.append(np.interp(at, np.arange(len(values)), values))
     usual = np.array(sampled)
+    # Only repetitions without gaps: one with a gap would make the mean nan.
     complete = np.isfinite(usual).all(axis=1)
     times = np.full(len(repetitions), np.nan)
-    # A repetition with a gap must not hide the usual phase of the others.
     if not complete.any():
         return times
     phase = share[int(usual[complete].mean(axis=0).argmax())]
@@ -396,7 +405,8 @@ def _find_maxima(repetitions: Sequence[Repetition], curves: Sequence[Curve]) -> 
         frames = np.arange(max(0, int(np.ceil(first * fps))), min(len(values), int(last * fps) + 1))
         if len(frames) and np.isfinite(values[frames]).all():
             frame = int(frames[values[frames].argmax()])
-            # An end of the recording has no neighbour for the parabola, which finds a minimum.
+            # Refine by a parabola through three frames. `find_vertex` finds a minimum, so the sign
+            # is changed. The first and last frame of the recording lack a neighbour.
             is_inside = 0 < frame < len(values) - 1
             shift = find_vertex(*-values[frame - 1 : frame + 2]) if is_inside else 0.0
             times[i] = (frame + shift) / fps
@@ -410,7 +420,7 @@ def _find_nearest_events(repetitions: Sequence[Repetition], times: Sequence[Floa
         events = times[each.recording]
         inside = events[(events >= each.start) & (events < each.stop)]
         phases.append(CYCLE * (inside - each.start) / (each.stop - each.start))
-    # nan if there are no events; then no window contains one.
+    # The phase is nan if there are no events; then no window contains an event.
     phase = compute_mean_phase(np.concatenate(phases)) / CYCLE
     chosen = np.full(len(repetitions), np.nan)
     for i, each in enumerate(repetitions):
@@ -473,7 +483,7 @@ def cut_at_events(
                 row, cluster=-1, label=row.label or activity.label or name,
                 confidence=np.nan, border_confidence=np.nan,
             )  # fmt: skip
-            # The first and the last one are as complete as the others: all are inner ones.
+            # The first and the last cycle are as complete as the others: all are inner cycles.
             each = Repetition(
                 number, segment, INNER, start, stop,
                 lacking=LONG if stop - start > LONGEST * usual else "",
@@ -486,12 +496,16 @@ def cut_at_events(
 def _find_event_spans(
     recording: Motion | Signals, anchor: str | Sequence[float]
 ) -> tuple[Floats, Floats | None]:
-    """Return spans (spans, 2) between events in seconds; of both feet, also those of the right.
+    """Return spans (spans, 2) between events in seconds, and the right foot's span for each.
 
-    A contact without a side, such as ``foot strike``, is that of either foot.
+    A contact without a side, such as ``foot strike``, is that of either foot: the spans are those
+    of the left foot, and the right foot's span is nan where none belongs to the left one. For
+    other events, and if such contacts are marked without a side, there are no spans of the right
+    foot (None).
     """
 
     def pair_events(times: Floats) -> Floats:
+        """Return the spans from each event inside the recording to the next."""
         times = times[(times >= 0) & (times <= recording.n_frames / recording.fps)]
         return np.column_stack([times[:-1], times[1:]])
 

@@ -110,11 +110,11 @@ class Cycles:
         >>> cycles.select(cycles.columns["group"] == "squat")
         <Cycles: 4 of 1 group, 12 channels>
         """
-        mask = np.asarray(rows)
-        if mask.dtype != bool or mask.shape != (len(self),):
+        is_selected = np.asarray(rows)
+        if is_selected.dtype != bool or is_selected.shape != (len(self),):
             raise ParameterError(f"rows must be a boolean array of length {len(self)}")
-        columns = {name: column[mask] for name, column in self.columns.items()}
-        return replace(self, columns=columns, curves=self.curves[mask])
+        columns = {name: column[is_selected] for name, column in self.columns.items()}
+        return replace(self, columns=columns, curves=self.curves[is_selected])
 
     def used(self, *, ends: bool = False) -> NDArray[np.bool_]:
         """Return a mask of the cycles used for means: inner ones that are not excluded.
@@ -227,8 +227,9 @@ class Cycles:
         later = ~np.isin(self.columns["place"], ("first", "only"))
         if later.any() and np.isnan(probabilities).all():
             raise ParameterError(
-                "no start of a cycle has a confidence: results of signals, of published presets "
-                "and of people have none"
+                "the starts of these cycles have no confidence, so none is unsure: only results of "
+                "the preset 'kineme' for bodies have it, not those of signals, of other presets or "
+                "labels of people"
             )
         return self.exclude(np.flatnonzero(probabilities < least), UNSURE)
 
@@ -289,7 +290,8 @@ class Cycles:
         -------
         dict of str to array
             Columns: ``group``, ``channel``, ``percent``, ``n``, ``mean``, ``sd``, ``low``, ``high``
-            (of the mean, with a confidence of 95 %, by Student's t at each point).
+            (of the mean, with a confidence of 95 %, by Student's t at each point). The mean is nan
+            without cycles, the others with fewer than two.
         """
         blocks: list[Columns] = []
         points = self.curves.shape[2]

@@ -72,7 +72,10 @@ class Labelling:
         object.__setattr__(self, "borders", np.asarray(self.borders, np.int64))
         object.__setattr__(self, "labels", tuple(map(str, self.labels)))
         if self.borders.size < 2 or self.borders[0] != 0:
-            raise ParameterError("labels must start at frame 0 and have at least one interval")
+            raise ParameterError(
+                "borders must begin with 0 and have at least two frames, not "
+                f"{self.borders.ravel()[:3].tolist()}"
+            )
         # Report the first fault, if any.
         for i in np.flatnonzero(np.diff(self.borders) <= 0)[:1]:
             before, after = self.borders[i : i + 2]

@@ -93,6 +93,7 @@ def bundle(features: ArrayLike, *, neighbors: int = 32, variance: float = 0.98) 
     moved = np.empty_like(reduced)
 
     def move(part: slice) -> None:
+        """Write the moved frames of a part to ``moved``."""
         _kernels.move_to_medians(reduced, directions, nearest, part.start, part.stop, moved)
 
     map_threads(move, make_even_slices(len(reduced)))

@@ -238,19 +238,24 @@ def mirror_poses(poses: Floats) -> Floats:
 def _compute_limb(
     joints: Joints, names: tuple[str, str, str], bones: tuple[float, float]
 ) -> Floats:
-    """Return the vector from the top of a canonical limb to its end, (frames, 3)."""
+    """Return the vector from the top of a canonical limb to its end, (frames, 3).
+
+    ``names`` are the joints at top, middle and end, ``bones`` the lengths of the two canonical
+    bones. The limb has the person's directions and these lengths.
+    """
     top, end = joints[names[0]], joints[names[2]]
     if names[1] in joints:
         middle = joints[names[1]]
         return bones[0] * _normalize_vectors(middle - top) + bones[1] * _normalize_vectors(
             end - middle
         )
-    # Without a middle joint, the distance of end and top shows how far the limb is bent.
+    # Without a middle joint, the distance of end and top tells how far the limb is extended (1:
+    # straight).
     reach = np.linalg.norm(end - top, axis=1, keepdims=True)
     # A high quantile is robust to tracking errors, unlike the maximum.
-    bent = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
-    straight: Floats = sum(bones) * bent * _normalize_vectors(end - top)
-    return straight
+    extension = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
+    vector: Floats = sum(bones) * extension * _normalize_vectors(end - top)
+    return vector
 
 
 def _measure_legs(joints: Joints) -> float:

@@ -144,8 +144,8 @@ def compute_statistics(
     """
     # Windows around each sample, cut at the ends.
     at, width = choose_frames(len(channels), fps, rate), max(1, round(window * fps))
-    first = np.clip(at - width // 2, 0, len(channels))
-    last = np.clip(at - width // 2 + width, 0, len(channels))
+    starts = np.clip(at - width // 2, 0, len(channels))
+    stops = np.clip(at - width // 2 + width, 0, len(channels))
     # None stands for the unfiltered channels, whose means are taken.
     highest = NYQUIST * fps
     edges = [None, *((low, min(high, highest)) for low, high in pairwise(bands) if low < highest)]
@@ -160,7 +160,7 @@ def compute_statistics(
         for chosen, reduction in mixtures:
             mixed = band if len(chosen) == channels.shape[1] else band[:, chosen]
             mixed = mixed if reduction is None else reduction.apply(mixed)
-            group.append(compute_means(mixed, first, last, squared=edge is not None))
+            group.append(compute_means(mixed, starts, stops, squared=edge is not None))
         groups.append(group)
     # One array per mixture, with means and bands side by side.
     return [np.hstack(each) for each in zip(*groups, strict=True)]
@@ -174,13 +174,13 @@ def choose_frames(frames: int, fps: float, rate: float) -> Ints:
     return at
 
 
-def compute_means(values: Floats, first: Ints, last: Ints, *, squared: bool = False) -> Floats:
-    """Return the means, or root mean squares, over the frames from first to last."""
+def compute_means(values: Floats, starts: Ints, stops: Ints, *, squared: bool = False) -> Floats:
+    """Return the means, or root mean squares, over each span of frames [start, stop)."""
     sums = np.zeros((len(values) + 1, values.shape[1]))
     # Square in place, to avoid a second copy of a long recording.
     np.multiply(values, values if squared else 1.0, out=sums[1:])
     np.cumsum(sums[1:], axis=0, out=sums[1:])
-    means: Floats = (sums[last] - sums[first]) / (last - first)[:, None]
+    means: Floats = (sums[stops] - sums[starts]) / (stops - starts)[:, None]
     # Differences of sums can be negative by rounding.
     return np.sqrt(np.maximum(means, 0.0)) if squared else means
 

@@ -304,13 +304,13 @@ def _pair_limbs(
     is_separate = np.any(pose[starts[0]] != pose[starts[1]], axis=1)
     # The two longest bones, in order down the limb; at ties the upper ones.
     long_bones = np.sort(np.argsort(-(bones[0] * is_separate), kind="stable")[:2])
-    first, second = (long_bones[0], long_bones[-1])
+    upper, lower = long_bones[0], long_bones[-1]
     left_and_right = [
         _Limb(
             parents[path[0]],
             path[0],
-            top=parents[path[first]],
-            end=path[second],
+            top=parents[path[upper]],
+            end=path[lower],
             tip=path[-1],
             length=length,
         )

@@ -246,11 +246,11 @@ def stack(features: ArrayLike, offsets: Sequence[int]) -> Floats:
     # Number of frames that are needed beyond each end.
     before, after = max(0, -min(offsets)), max(0, *offsets)
     frames, dims = features.shape
-    first = features[1] - features[0] if frames > 1 else np.zeros(dims)
-    last = features[-1] - features[-2] if frames > 1 else first
+    first_step = features[1] - features[0] if frames > 1 else np.zeros(dims)
+    last_step = features[-1] - features[-2] if frames > 1 else first_step
     # The farthest frame is the first in time, so multiples descend.
-    head = features[0] - np.arange(before, 0, -1)[:, None] * first
-    tail = features[-1] + np.arange(1, after + 1)[:, None] * last
+    head = features[0] - np.arange(before, 0, -1)[:, None] * first_step
+    tail = features[-1] + np.arange(1, after + 1)[:, None] * last_step
     longer = np.concatenate([head, features, tail])
     stacked = np.empty((frames, len(offsets), dims))
     for block, offset in enumerate(sorted(offsets)):

@@ -57,7 +57,7 @@ class SimilarityMatrix:
     levels: tuple[Float32s, ...]
 
     def cells(self, level: int, rows: slice, columns: slice) -> Float32s:
-        """Return the similarities of some cells of a level, (rows, columns) from 0 to 1."""
+        """Return similarities of some cells of a level, (rows, columns) from 0 to 1; 0 in gaps."""
         down, across = self.levels[level][rows], self.levels[level][columns]
         # All squared distances, |a|² + |b|² - 2 a·b, by one matrix product.
         squared = (down**2).sum(axis=1)[:, None] + (across**2).sum(axis=1) - 2 * (down @ across.T)

@@ -274,8 +274,8 @@ def _read_removed(folder: Path) -> dict[str, Spans]:
     except ReadError as error:
         raise ReadError(folder / REMOVED, DAMAGED) from error
     for starts, stops, clusters in content.values():
-        is_even = len(starts) == len(stops) == len(clusters)
-        if not (is_even and all(-1 <= cluster < MOST_CLUSTERS for cluster in clusters)):
+        is_same_length = len(starts) == len(stops) == len(clusters)
+        if not (is_same_length and all(-1 <= cluster < MOST_CLUSTERS for cluster in clusters)):
             raise ReadError(folder / REMOVED, DAMAGED)
     return {
         key: (np.array(starts, float), np.array(stops, float), np.array(clusters, np.int64))

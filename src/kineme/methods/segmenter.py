@@ -447,7 +447,8 @@ def convert_to_frames(
     """Convert columns from samples to frames; cut at gaps, and fill these with transitions.
 
     Spans are in time order, and ``ratio`` is the number of frames per sample. Borders at most
-    ``near`` samples from a gap are moved to the gap. Rows shorter than one frame are dropped.
+    ``near`` samples from a gap are moved to the gap. Borders at a gap have no confidence (nan).
+    Rows shorter than one frame are dropped.
     """
     rows: list[NDArray[np.intp]] = []
     starts: list[NDArray[np.int64]] = []

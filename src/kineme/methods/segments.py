@@ -201,9 +201,10 @@ def make_tables(
             # Finer than 1: borders of detail 1 stay. Coarser: only frame 0 is fixed.
             is_fixed = np.isin(borders[:-1], activities["start_frame"] if detail > 1 else 0)
             # Segments begin where the label changes; -2 differs from every label.
-            first = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | is_fixed)
+            run_starts = np.flatnonzero((np.diff(labels, prepend=-2) != 0) | is_fixed)
             # Numbers by appearance can be compared between details.
-            starts, numbers = borders[:-1][first], number_by_appearance(labels[first])
+            starts = borders[:-1][run_starts]
+            numbers = number_by_appearance(labels[run_starts])
             if not (
                 np.array_equal(starts, activities["start_frame"])
                 and np.array_equal(numbers, number_by_appearance(activities["cluster"]))

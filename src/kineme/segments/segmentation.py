@@ -108,6 +108,7 @@ def check_parents(activities: SegmentTable, primitives: SegmentTable) -> None:
     # Activity of each primitive: the last one that begins at or before it.
     enclosing = np.searchsorted(activities.start_frame, primitives.start_frame, "right") - 1
     stops = activities.stop_frame[enclosing]
+    # Report the first fault, if any.
     for i in np.flatnonzero(primitives.stop_frame > stops)[:1].tolist():
         row = primitives[i]
         raise ParameterError(

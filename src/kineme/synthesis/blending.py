@@ -202,6 +202,7 @@ def _blend_spans(
     sources = [to_world_axes(motion, still) for motion in motions]
 
     def place_span(span: PlacedSpan, start: int, stop: int) -> tuple[Floats, Floats]:
+        """Return rotations and translations of frames of a span's source, placed as the span."""
         rotations, shift = (each[start:stop].copy() for each in sources[span.source])
         about_y = rot.rotate_about_y(span.at.angle)
         rotations[:, carriers] = rot.multiply(about_y, rotations[:, carriers])

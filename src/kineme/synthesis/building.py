@@ -181,11 +181,11 @@ def _make_nodes(segmentations: Sequence[Segmentation]) -> tuple[list[Node], list
     edges: list[Edge] = []
     for source, segmentation in enumerate(segmentations):
         rows = segmentation.primitives if len(segmentation.primitives) else segmentation.activities
-        first = len(nodes)
+        first_node = len(nodes)
         nodes += [
             Node(source, row.start_frame, row.stop_frame, row.cluster, row.label) for row in rows
         ]
-        for a, b in pairwise(range(first, len(nodes))):
+        for a, b in pairwise(range(first_node, len(nodes))):
             edges.append(Edge(a, b, nodes[a].stop, nodes[b].start, jump=False))
     return nodes, edges
 
@@ -240,8 +240,8 @@ def _sample_ends(
 ) -> tuple[Ints, Ints]:
     """Return frames near the ends (side 1) or starts (side 0) of all nodes, and their nodes.
 
-    Only frames with a full window inside their recording, and close enough to the border that a
-    node is never left before it is entered.
+    These are frames with a full window inside their recording, so close to the border that a node
+    is never left before it is entered.
     """
     frames, owners = [], []
     for number, node in enumerate(nodes):

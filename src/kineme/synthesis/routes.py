@@ -214,18 +214,19 @@ def _trace_path(before: NDArray[np.int32], start: int, stop: int) -> list[int]:
 def _explain_missing_route(graph: MotionGraph, names: Sequence[str], cost: Floats) -> str:
     shown = ", ".join(f"{name}*{len(list(same))}" for name, same in groupby(names))
     tail, head = names[-2:]
-    # Nodes from which any node of that name can be reached.
-    back = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
+    # Marks the nodes from which any node of that name can be reached.
+    reaches_head = np.isfinite(cost[:, graph.nodes_of(head)]).any(axis=1)
     return (
         f"no route leads through {shown}: {tail!r} can be followed by "
         f"{_join_names(find_following(graph, tail))}, and {head!r} is reached from "
-        f"{_join_names(_list_marked_names(graph, back))}; put another action between, or "
+        f"{_join_names(_list_marked_names(graph, reaches_head))}; put another action between, or "
         "build the graph with a higher threshold"
     )
 
 
-def _list_marked_names(graph: MotionGraph, mask: Any) -> list[str]:
-    chosen = (node.name for node, yes in zip(graph.nodes, mask, strict=True) if yes)
+def _list_marked_names(graph: MotionGraph, is_marked: Any) -> list[str]:
+    """Return the names of the marked nodes, each once, without nameless nodes."""
+    chosen = (node.name for node, marked in zip(graph.nodes, is_marked, strict=True) if marked)
     return list(dict.fromkeys(name for name in chosen if name))
 
 

@@ -97,8 +97,8 @@ class Assignment(NamedTuple):
 
     ``next_cluster`` is the nearest other cluster, or -1. ``spread`` is the mean distance to the
     other members of the cluster (for signals, to its centre). ``confidence`` is 1 - spread /
-    distance to the next cluster, 0 to 1, or nan without one. With several rounds, the values are
-    from the round in which a local cluster was assigned.
+    distance to the next cluster, 0 to 1, or nan without a next cluster. With several rounds, the
+    values are from the round in which a local cluster was assigned.
     """
 
     cluster: Ints
@@ -172,7 +172,7 @@ def _find_example(table: SegmentTable, row: int) -> tuple[tuple[float, float], t
     example = middle - length / 2, middle + length / 2
     around = (table.level == "activity") & (table.start_s <= middle) & (middle < table.stop_s)
     reach = max(CONSTANTS.longest_context, length) / 2
-    # Without an activity around it, the context is the example.
+    # Without an activity around the segment, the context is the example.
     first = min([example[0], *table.start_s[around].tolist()])
     last = max([example[1], *table.stop_s[around].tolist()])
     return example, (max(first, middle - reach), min(last, middle + reach))
@@ -182,7 +182,8 @@ def _find_example(table: SegmentTable, row: int) -> tuple[tuple[float, float], t
 class ClusterSet:
     """Local clusters to link.
 
-    ``load(cluster)`` returns the features of one. They are not stored, as a set may be large.
+    ``load(cluster)`` returns the features of a local cluster. Features are not stored, as a set may
+    be large.
     ``embeddings`` (n, 32) are those of the typical segments.
     """
 
@@ -216,6 +217,7 @@ def link_clusters(
     result = Assignment(np.full(n, -1), np.full(n, -1), np.full(n, np.nan), np.zeros(n))
 
     def store(numbers: Ints, found: Assignment) -> None:
+        """Write those local clusters to ``result`` for which a cluster is found."""
         fits = found.cluster >= 0
         for column, values in zip(result, found.shift(count), strict=True):
             column[numbers[fits]] = values[fits]
@@ -372,10 +374,14 @@ def measure_distances(ones: ClusterSet, others: ClusterSet, wanted: NDArray[np.b
 def _search(
     ones: Sequence[Features], others: Sequence[Features], wanted: NDArray[np.bool_]
 ) -> Floats:
-    """Return the distance of each example to the nearest match in the contexts of others."""
+    """Return the distance of each example to its best match in each context, (ones, others).
+
+    It is `FARTHEST` at most, and for pairs that are not ``wanted``.
+    """
     all_contexts = _join_contexts(others) if wanted.all() else None
 
     def search_one(number: int) -> Floats:
+        """Return the distances of one example to its best match in each context."""
         distances = np.full(len(others), FARTHEST)
         columns = np.flatnonzero(wanted[number])
         if len(columns):

@@ -146,6 +146,7 @@ def fit_units(rows: NDArray[Any]) -> Callable[[NDArray[Any]], Float32s]:
     varies = np.where(varies > 0, varies, np.sqrt((within**2).mean(axis=0)))
 
     def compute_numbers(rows: NDArray[Any]) -> Floats:
+        """Return the features of rows before they are centred and scaled."""
         values, within = _split_means_and_deviations(rows)
         return np.hstack([values, np.log(within / np.where(varies > 0, varies, 1.0) + STILL)])
 

@@ -121,7 +121,7 @@ class KnowledgeBase:
             if column.shape != self.labels.shape or column.ndim != 1:
                 raise ParameterError(f"{name} and labels must be of the same length")
         if len(self) and self.lengths.min() < 1:
-            raise ParameterError("a primitive has at least 1 frame")
+            raise ParameterError(f"lengths must be at least 1 frame, not {self.lengths.min()}")
         if self.lengths.sum() != len(self.features):
             raise ParameterError(
                 f"lengths add up to {self.lengths.sum()} frames, but there are {len(self.features)}"

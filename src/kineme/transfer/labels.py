@@ -116,10 +116,10 @@ def transfer_labels(
     unnamed = np.flatnonzero((rows.kind != "transition") & (rows.label == ""))
     if len(unnamed) and len(knowledge):
         unknown = _list_primitives(rows.select(unnamed), features, segmentation.fps)
-        # Label, margin and cost of each.
+        # Label, margin and cost of each row.
         best = _choose_cheapest(unknown, knowledge, threshold)
-        other = _find_other_movements(best[0], best[2], number_movements(unknown, SIMILAR))
-        best[0][other], best[1][other], best[2][other] = "", np.nan, np.nan
+        rejected = _find_rejected_labels(best[0], best[2], number_movements(unknown, SIMILAR))
+        best[0][rejected], best[1][rejected], best[2][rejected] = "", np.nan, np.nan
         labels[unnamed], margins[unnamed], costs[unnamed] = best
     if spread:
         _spread_in_clusters(labels, margins, rows.cluster, unnamed)
@@ -212,20 +212,21 @@ def _choose_cheapest(
     )
 
 
-def _find_other_movements(
+def _find_rejected_labels(
     labels: NDArray[Any], costs: Floats, movements: NDArray[np.int64]
 ) -> NDArray[np.bool_]:
-    """Mark rows that are a different movement than the cheapest match of their label.
+    """Mark rows that lose their label, as they are not the movement of its cheapest match.
 
-    A different movement keeps the label if its cost is not larger than that between repetitions of
-    one person.
+    ``movements`` numbers the movement of each row. A row of another movement loses the label only
+    if its cost is above `SIMILAR`, the largest cost between repetitions of one person.
     """
-    other = np.zeros(len(labels), np.bool_)
+    is_rejected = np.zeros(len(labels), np.bool_)
     for label in set(labels.tolist()) - {""}:
         named = np.flatnonzero(labels == label)
-        first = named[costs[named].argmin()]
-        other[named] = (movements[named] != movements[first]) & (costs[named] > SIMILAR)
-    return other
+        cheapest = named[costs[named].argmin()]
+        is_other = movements[named] != movements[cheapest]
+        is_rejected[named] = is_other & (costs[named] > SIMILAR)
+    return is_rejected
 
 
 def _spread_in_clusters(

@@ -161,7 +161,7 @@ class Searched:
 
 
 def warp(example: ArrayLike, recording: ArrayLike) -> tuple[Float32s, NDArray[np.int32]]:
-    """Return cost and start of the cheapest match that ends with each sample; inf without one."""
+    """Return cost and start of the cheapest match that ends at each sample; inf without a match."""
     short, long = _check_features(example, "example"), _check_features(recording, "recording")
     if short.shape[1] != long.shape[1] or len(short) == 0:
         raise ParameterError(
@@ -225,7 +225,7 @@ class Primitives:
 def compute_label_costs(
     unknown: Primitives, examples: Primitives, codes: Ints, n_labels: int, *, radius: float
 ) -> Floats:
-    """Return the cost of the cheapest match of each primitive with each label; inf without one.
+    """Return the cost of the cheapest match of each primitive with each label; inf without a match.
 
     ``codes`` are the labels of the examples, from 0, equal within a run. Matches that cost more
     than the radius are ignored.
@@ -239,7 +239,10 @@ def compute_label_costs(
 
 
 def find_mutual_matches(unknown: Primitives, examples: Primitives, radius: float) -> Pairs:
-    """Return every match of an unknown primitive with a run of examples, in both directions."""
+    """Return the matches of unknown primitives with runs of examples that exist both ways.
+
+    The cost is the larger of that of the forward match and the median of the backward matches.
+    """
     # Forward: primitive u matches a run of examples. Backward: example k matches an unknown run.
     u, example_run, forward = _find_matches(unknown, examples, np.arange(len(unknown)), radius)
     reached = np.flatnonzero(np.isin(examples.runs, example_run))
@@ -258,25 +261,26 @@ def find_mutual_matches(unknown: Primitives, examples: Primitives, radius: float
 
 def number_movements(primitives: Primitives, radius: float) -> Ints:
     """Number the movements of primitives: those that match, directly or indirectly, are equal."""
-    one, run, _ = find_mutual_matches(primitives, primitives, radius)
+    u, run, _ = find_mutual_matches(primitives, primitives, radius)
     # Connected components of a graph of primitives and runs.
     n = len(primitives)
     size = n + int(primitives.runs[-1]) + 1
-    links = coo_array((np.ones(len(one)), (one, n + run)), shape=(size, size))
+    links = coo_array((np.ones(len(u)), (u, n + run)), shape=(size, size))
     numbers: Ints = connected_components(links, directed=False)[1][:n].astype(np.int64)
     return numbers
 
 
 def _find_matches(examples: Primitives, others: Primitives, numbers: Ints, radius: float) -> Pairs:
     """Find the cheapest warping of some examples inside each run of others, within the radius."""
-    separated, first = _append_walls(others)
+    separated, run_starts = _append_walls(others)
     starts = examples.starts
     features = np.asarray(examples.features, np.float32)
 
     def match_one(p: np.int64) -> tuple[Ints, Floats]:
+        """Return the runs that example p matches, and the costs."""
         costs, _ = warp(features[starts[p] : starts[p + 1]], separated)
         # Cheapest warping that ends in each run.
-        cheapest = np.minimum.reduceat(costs, first)
+        cheapest = np.minimum.reduceat(costs, run_starts)
         runs = np.flatnonzero(cheapest <= radius)
         return runs, cheapest[runs].astype(np.float64)
 
@@ -294,8 +298,8 @@ def _append_walls(primitives: Primitives) -> tuple[NDArray[np.float32], Ints]:
     n_runs = int(primitives.runs[-1]) + 1
     separated = np.full((len(frames) + n_runs, primitives.features.shape[1]), _WALL, np.float32)
     separated[frames] = primitives.features
-    first = np.searchsorted(primitives.frame_runs, np.arange(n_runs)) + np.arange(n_runs)
-    return separated, first
+    starts = np.searchsorted(primitives.frame_runs, np.arange(n_runs)) + np.arange(n_runs)
+    return separated, starts
 
 
 def _compute_medians(keys: Ints, costs: Floats, sizes: Ints) -> tuple[Ints, Floats]:

@@ -140,15 +140,17 @@ def _share_by_search(
         for each in find_local_clusters(found.table, number)
     ]
 
-    def part(values: NDArray[Any], span: tuple[float, float]) -> NDArray[Any]:
+    def cut_span(values: NDArray[Any], span: tuple[float, float]) -> NDArray[Any]:
+        """Return the samples of a span in seconds."""
         return values[slice(*to_samples(span, MATCHING_FPS, len(values)))]
 
     def load(each: LocalCluster) -> Features:
         features, _ = described[each.recording]
-        return part(features, each.example), part(features, each.context)
+        return cut_span(features, each.example), cut_span(features, each.context)
 
     embeddings = [
-        embedding(part(described[each.recording][1], (each.start_s, each.stop_s))) for each in local
+        embedding(cut_span(described[each.recording][1], (each.start_s, each.stop_s)))
+        for each in local
     ]
     clusters = ClusterSet(local, np.array(embeddings), load)
     constants = replace(CONSTANTS, join=threshold)
@@ -178,13 +180,13 @@ def share_by_samples(
     n_clusters: int | None = None,
 ) -> list[Segmentation]:
     """Share clusters of signals, from their samples; see `share_clusters`."""
-    for one in samples:
-        if one.names != samples[0].names:
+    for each in samples:
+        if each.names != samples[0].names:
             raise ParameterError(
                 "clusters can only be shared between recordings with the same channels, "
-                f"not {', '.join(samples[0].names):.80} and of {', '.join(one.names):.80}"
+                f"not {', '.join(samples[0].names):.80} and of {', '.join(each.names):.80}"
             )
-    rows = [one.rows for one in samples]
+    rows = [each.rows for each in samples]
     # Sums depend on the order of recordings: sort them by content.
     order = sorted(range(len(rows)), key=lambda i: sha256(rows[i].tobytes()).digest())
     activities = [segmentations[i].activities for i in order]

@@ -398,9 +398,11 @@ def evaluate_bezier(
 def count_frames(
     content: FileContent, joints: int, frames: float, *, external_size: int = 0
 ) -> int:
-    """Return the whole frames; raise ReadError if a file of this size cannot hold so many.
+    """Return the number of frames, rounded down, after checking that the file may need the memory.
 
-    ``external_size`` is the size in bytes of other files that belong to it.
+    A motion of up to `MIN_FRAME_MEMORY` bytes is always accepted, because a few keys define many
+    frames. A larger one raises ReadError if it is out of proportion to the size of the file.
+    ``external_size`` is the size in bytes of other files that belong to this one, such as buffers.
     """
     n_frames = int(min(frames, MAX_FRAMES))
     if BYTES_PER_JOINT * joints * n_frames > max(MIN_FRAME_MEMORY, MAX_EXPANSION * external_size):

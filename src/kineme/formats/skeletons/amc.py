@@ -339,6 +339,7 @@ def write_amc(motion: Motion, path: Path) -> None:
     """Write a motion to an AMC file and its skeleton to an ASF of the same name."""
     values, angle_unit, asf = _fit_asf(motion, path) or _make_asf(motion, path)
     save(path.with_suffix(".asf"), asf)
+    # `angle_unit` is the number of radians per unit.
     angle = "RADIANS" if angle_unit == 1.0 else "DEGREES"
     head = f"# fps {motion.fps!r}\n:FULLY-SPECIFIED\n:{angle}\n"
     blocks = [

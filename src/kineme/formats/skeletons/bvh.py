@@ -311,13 +311,15 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
     if width == 0:
         raise content.error("no joint has channels, so there is no motion")
     values = array("d")
-    odd_lines: list[tuple[int, int]] = []
+    odd_lines: list[tuple[int, int]] = []  # number of the line, and of its values
+    # A line that is not numbers is kept as the fault: raised if another line follows, otherwise
+    # only warned of.
     fault: ReadError | None = None
     repaired = 0
     last = number = content.line_at(start)
     for number, line in _split_lines(content.data, start, last):
         last = number
-        if fault is not None:  # faults are tolerated only in the last line
+        if fault is not None:
             raise fault
         try:
             row, is_repaired = _parse_row(line)
@@ -327,15 +329,11 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         repaired += is_repaired
         values.extend(row)
         if len(row) != width:
-            # Other widths are valid only if all numbers together give the declared frames.
             odd_lines.append((number, len(row)))
+    # Lines of another width are allowed in two cases: frames are broken over lines (all numbers
+    # together give exactly the declared frames), or the file ends within the last line.
     if odd_lines and (fault or len(values) != width * declared):
-        number, count = odd_lines[0]
-        fault = content.error(f"{count} values, but the hierarchy has {width} channels", number)
-        if number < last or count > width:
-            raise fault
-        # Drop the values of the truncated last line.
-        del values[-count:]
+        fault = _drop_truncated_line(content, values, odd_lines[0], width, last)
     if not values:
         raise fault or content.error("the file ends before its first frame, so it has no motion")
     if fault is not None:
@@ -344,6 +342,21 @@ def read_frames(content: FileContent, start: int, width: int, declared: int) -> 
         count_text = format_count(repaired, "frame")
         content.warn(f"spaces missing before minus signs added in {count_text}")
     return np.frombuffer(values).reshape(-1, width)
+
+
+def _drop_truncated_line(
+    content: FileContent, values: array[float], odd_line: tuple[int, int], width: int, last: int
+) -> ReadError:
+    """Remove the values of a truncated last line, and return its fault.
+
+    Raise the fault if the first line of another width is not the last line, or is too long.
+    """
+    number, count = odd_line
+    fault = content.error(f"{count} values, but the hierarchy has {width} channels", number)
+    if number < last or count > width:
+        raise fault
+    del values[-count:]
+    return fault
 
 
 def sample_frames(data: bytes, start: int, width: int, every: int) -> Floats | None:

@@ -353,7 +353,9 @@ def _read_array(path: Path, kind: type[np.number[Any]]) -> NDArray[Any]:
     with _open_array(path):
         rows: NDArray[Any] = np.load(copy_nearby(path), allow_pickle=False)
         if rows.ndim != 2 or rows.dtype != kind:
-            raise ValueError(f"an array of {rows.dtype} {rows.shape}, not of rows of features")
+            raise ValueError(
+                f"holds {rows.dtype} of shape {rows.shape}, not rows of {np.dtype(kind)}"
+            )
         if kind is np.float32:  # integers cannot be nan or overflow a distance
             _check_plausible(rows)
     return rows

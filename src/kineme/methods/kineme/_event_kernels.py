@@ -200,22 +200,22 @@ def count_recurrences(
     n = 0
     # Collect the recurrences of all paths through the middle, sorted by gain.
     for path in row_paths[row_ptr[middle] : row_ptr[middle + 1]]:
-        first = starts[path]
+        path_start = starts[path]
         # `sums[base + sample]` is the score of the path up to a sample.
-        base = ptr[path] - first
+        base = ptr[path] - path_start
         # Part of the span that the path covers.
-        low, high = max(start, first), min(stop, first + ptr[path + 1] - ptr[path])
+        low, high = max(start, path_start), min(stop, path_start + ptr[path + 1] - ptr[path])
         if high - low < cover * length:
             continue
         # Trim samples at both ends that gain nothing.
-        while low < high and low > first and sums[base + low] <= sums[base + low - 1]:
+        while low < high and low > path_start and sums[base + low] <= sums[base + low - 1]:
             low += 1
         while high - 1 > low and sums[base + high - 1] <= sums[base + high - 2]:
             high -= 1
         if high - low < cover * length:
             continue
         # Cumulative scores: their difference is the gain of the part.
-        score = sums[base + high - 1] - (sums[base + low - 1] if low > first else 0.0)
+        score = sums[base + high - 1] - (sums[base + low - 1] if low > path_start else 0.0)
         begin, end = round(partners[base + low]), round(partners[base + high - 1]) + 1
         # The partner must lie outside the span and have at least half of its length.
         if score > 0 and (end <= start or begin >= stop) and 2 * (end - begin) >= length:
@@ -261,10 +261,9 @@ def update_block_maxima(maxima, values, start, stop):
     """Update the maximum of each block that overlaps ``[start, stop)``."""
     # The last block may be incomplete.
     for block in range(start // BLOCK, (stop + BLOCK - 1) // BLOCK):
-        first = block * BLOCK
-        maxima[block] = values[
-            first + find_largest(values[first:], min(BLOCK, len(values) - first))
-        ]
+        start_of_block = block * BLOCK
+        size = min(BLOCK, len(values) - start_of_block)
+        maxima[block] = values[start_of_block + find_largest(values[start_of_block:], size)]
 
 
 @njit(

@@ -20,8 +20,8 @@ turns. The tree can take this for a new activity, above all if repetitions are f
 neighbours are divided into repetitions again as one span. They are merged if
 
 - one of them has too few repetitions to be a certain activity by itself;
-- the joint division has the same number of repetitions on each side as the side has alone, which
-  is unlikely by chance;
+- the joint division has the same number of repetitions on each side as the side has alone, give
+  or take one, which is unlikely by chance;
 - it is not two movements (`score_one_movement`);
 - without their mean pose, repetitions near the border are about as similar to those across it as
   to each other, and last about as long (at least `same_set`).
@@ -190,13 +190,14 @@ def fit_ends(
 
     Activities are in time order, in frames of features (frames, dims) at the working rate. A gap
     between two activities of one cluster is never closed. ``cuts`` are the starts of the second,
-    third, ... repetition of each.
+    third, ... repetition of each activity.
     """
     n = len(features)
     # The last repetition is the first one of the reversed recording.
     reversed_features = np.ascontiguousarray(features[::-1])
 
     def fit(i: int) -> tuple[int, int, int, int]:
+        """Return start and stop of activity i, start of its first repetition, stop of its last."""
         start, first = _find_begin(features, int(starts[i]), cuts[i])
         reversed_cuts = (n - cuts[i])[::-1].copy()
         stop, last = _find_begin(reversed_features, n - int(stops[i]), reversed_cuts)
@@ -310,25 +311,27 @@ def join_sets(rows: Rows, found: Sets, preset: KinemeConstants) -> Sets:
 def compare_sides(
     rows: Rows, cuts: Frames, border: int, counts: tuple[int, int], preset: KinemeConstants
 ) -> float:
-    """Return the similarity of repetitions across a border, relative to that on each side.
+    """Return how well repetitions match across a border, relative to within each side.
 
-    Return 0 if the joint division fails one of the other tests; see the module docstring. ``rows``
-    are the frames of both sides, ``cuts`` the starts of the second, third, ... repetition of the
-    joint division, ``border`` the first frame of the right side. ``counts`` are the numbers of
-    repetitions of each side when divided alone.
+    It is the correlation across the border over that within the sides, times the evenness of the
+    durations; 0 if another test of the module docstring fails. ``rows`` are the frames of both
+    sides, ``cuts`` the starts of the second, third, ... repetition of the joint division,
+    ``border`` the first frame of the right side. ``counts`` are the numbers of repetitions of each
+    side when divided alone.
     """
     if len(cuts) < 2:  # there is no inner repetition
         return 0.0
     edges = fit_edges(rows, cuts)
     durations = np.diff(edges)
     before = int(np.count_nonzero(edges[:-1] + durations / 2 < border))
-    # A count of two is no evidence: any span has two halves.
-    agree = all(
+    # Counts may differ by one, since a repetition may lie across the border. A count of two is no
+    # evidence: any span has two halves.
+    counts_agree = all(
         abs(alone - together) <= 1
         for alone, together in zip(counts, (before, len(durations) - before), strict=True)
         if alone > 2
     )
-    if not (agree and 0 < before < len(durations)):
+    if not (counts_agree and 0 < before < len(durations)):
         return 0.0
     movement = trace_movement(rows, preset)
     repeated = sample_repetitions(movement.poses, movement.path, edges, PLACES)
@@ -338,7 +341,8 @@ def compare_sides(
         return 0.0
     compared = repeated[max(before - N_COMPARED, 0) : before + N_COMPARED]
     beside, across = compare_at_border(compared, min(before, N_COMPARED), preset.centering)
-    # If each side is very uniform, even a small difference across the border is significant.
+    # Two movements: much less alike across the border than within the sides. `ROUGH` keeps the test
+    # from rejecting very uniform sides for a small difference.
     if 1 - beside + ROUGH < preset.two_movements * (1 - across + ROUGH):
         return 0.0
     return evenness * across / max(beside, TINY)

@@ -116,12 +116,13 @@ class Evidence:
     def repeated(self) -> Floats:
         """Return the mean correlation of pairs of repetitions of each segment, as Fisher's z.
 
-        0 for a single repetition, nan if the primitives are not repetitions.
+        It is 0 for a single repetition, and nan if the primitives are not repetitions.
         """
         parents, repeats = self.segments.parents, self.segments.repeats
         repeated = np.full(len(self.segments.labels), np.nan)
 
-        def correlate(segment: int) -> None:
+        def store_correlation(segment: int) -> None:
+            """Write the mean correlation of a segment to ``repeated``."""
             first, last = self.segments.firsts[segment : segment + 2]
             edges = self.segments.primitives[first : last + 1]
             movement = trace_movement(
@@ -130,7 +131,7 @@ class Evidence:
             samples = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
             repeated[segment] = compute_mean_correlation(samples[repeats[first:last]])
 
-        map_threads(correlate, np.unique(parents[repeats]).tolist())
+        map_threads(store_correlation, np.unique(parents[repeats]).tolist())
         return repeated
 
     @cached_property
@@ -166,7 +167,8 @@ class Confidence:
 def measure_preferences(view: NDArray[np.float32], borders: Frames, labels: Frames) -> Floats:
     """Return how much nearer each segment is to its own cluster than to the next, 0 to 1.
 
-    Borders are in samples of the view. Transitions have the label -1, and get nan.
+    It is 1 less the ratio of both mean distances; 1 if there is no other cluster. Borders are in
+    samples of the view. Transitions have the label -1, and get nan.
 
     Examples
     --------
@@ -275,7 +277,7 @@ def compute_mean_correlation(repetitions: Floats) -> float:
 
 
 def compute_confidence(evidence: Evidence, calibration: Calibration) -> Confidence:
-    """Compute probabilities from the statistics that the calibration has weights for."""
+    """Compute probabilities from the statistics; nan for results without weights."""
     parents = evidence.segments.parents
     borders = cuts = np.full(len(evidence.segments.labels), np.nan)
     if calibration.borders:

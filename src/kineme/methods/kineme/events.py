@@ -46,9 +46,9 @@ class Occurrences:
     starts: Ints
     stops: Ints
     clusters: Ints
-    """Set of each, numbered from 0 by first appearance."""
+    """Set of each occurrence, numbered from 0 by first appearance."""
     similarity: Floats
-    """Similarity of each to the representative of its set, 0 to 1."""
+    """Similarity of each occurrence to the representative of its set, 0 to 1."""
 
     def __len__(self) -> int:
         return len(self.starts)
@@ -60,7 +60,7 @@ class Occurrences:
         return inside / np.diff(borders)
 
     def select_within(self, borders: Ints, chosen: NDArray[np.bool_]) -> Occurrences:
-        """Return the occurrences in the chosen segments that recur in these.
+        """Return the occurrences in chosen segments whose set has another occurrence in them.
 
         An occurrence belongs to the segment that contains its middle.
         """
@@ -128,7 +128,7 @@ class _Samples(NamedTuple):
     edges: Ints
     """First frame of each sample, and one past its last, (samples, 2)."""
     seconds: Floats
-    """Duration of each in steps: 1 at the usual speed of the body."""
+    """Duration of each sample in steps: 1 at the usual speed of the body."""
     begins: NDArray[np.bool_]
     """Whether a free span begins with this sample."""
 
@@ -222,12 +222,13 @@ def find_matching_paths(
         sums += [forward_sums, backward_sums]
     sizes = np.array([len(path_ends) for path_ends in partners[1:]], np.int64)
     ptr = np.append(0, np.cumsum(sizes))
-    first = np.array(starts, np.int64)
+    first_samples = np.array(starts, np.int64)
     # Sample of each entry; sorting the entries by sample lists the paths of each sample.
-    rows = np.repeat(first - ptr[:-1], sizes) + np.arange(ptr[-1])
+    rows = np.repeat(first_samples - ptr[:-1], sizes) + np.arange(ptr[-1])
     row_paths = np.repeat(np.arange(len(sizes)), sizes)[np.argsort(rows, kind="stable")]
     row_ptr = np.append(0, np.cumsum(np.bincount(rows, minlength=len(costs))))
-    return first, ptr, np.concatenate(partners), np.concatenate(sums), row_ptr, row_paths
+    joined = np.concatenate(partners), np.concatenate(sums)
+    return first_samples, ptr, *joined, row_ptr, row_paths
 
 
 def split_path(

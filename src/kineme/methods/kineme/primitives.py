@@ -108,7 +108,11 @@ def divide_into_repetitions(
 
 
 def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
-    """Merge clusters that are one movement at any pace, and neighbours of one cluster."""
+    """Merge clusters that are one movement at any pace.
+
+    Neighbours that are now in one cluster become one segment, including a transition between them,
+    and all segments are divided into repetitions again.
+    """
     means = {}
     for segment in np.flatnonzero(segments.counts > 1).tolist():
         movement, _, repeated = _extract_repetitions(rows, segments, segment, preset)
@@ -118,11 +122,12 @@ def merge_similar_clusters(rows: Rows, segments: Segments, preset: KinemeConstan
     if (labels == segments.labels).all():
         return segments
     activities = np.flatnonzero(labels >= 0)
-    first = np.flatnonzero(np.diff(labels[activities], prepend=-1))
-    # Neighbours that are now in one cluster become one segment, divided again.
-    starts = segments.borders[:-1][activities[first]]
-    stops = segments.borders[1:][activities[np.append(first[1:], len(activities)) - 1]]
-    labels = number_by_appearance(labels[activities[first]])
+    # Positions, in `activities`, at which a run of one cluster begins.
+    run_starts = np.flatnonzero(np.diff(labels[activities], prepend=-1))
+    # A run lasts from the start of its first activity to the stop of its last.
+    starts = segments.borders[:-1][activities[run_starts]]
+    stops = segments.borders[1:][activities[np.append(run_starts[1:], len(activities)) - 1]]
+    labels = number_by_appearance(labels[activities[run_starts]])
     return divide_into_repetitions(rows, starts, stops, labels, preset)
 
 
@@ -145,10 +150,10 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
     if not len(repeating):
         return labels
     _, rank = np.unique(labels[repeating], return_inverse=True)
-    first = np.argsort(rank, kind="stable")
+    by_cluster = np.argsort(rank, kind="stable")
     # Index of each segment in its cluster; the first `MAX_COMPARED` of a cluster represent it.
-    within = np.arange(len(repeating)) - np.searchsorted(rank[first], rank[first])
-    compared = repeating[np.sort(first[within < MAX_COMPARED])]
+    within = np.arange(len(repeating)) - np.searchsorted(rank[by_cluster], rank[by_cluster])
+    compared = repeating[np.sort(by_cluster[within < MAX_COMPARED])]
     similarity = kernels.measure_similarities(np.stack([movements[at] for at in compared.tolist()]))
     while True:
         names, cluster_index = np.unique(labels[compared], return_inverse=True)
@@ -158,10 +163,10 @@ def link_clusters(labels: Frames, movements: dict[int, Floats], least: float) ->
         # Average linkage: the mean over all pairs of segments of two clusters.
         means = (members.T @ similarity @ members) / np.outer(sizes, sizes)
         np.fill_diagonal(means, -np.inf)
-        one, other = sorted(divmod(int(means.argmax()), len(names)))
-        if means[one, other] < least:
+        kept, merged = sorted(divmod(int(means.argmax()), len(names)))
+        if means[kept, merged] < least:
             return labels
-        labels[labels == names[other]] = names[one]
+        labels[labels == names[merged]] = names[kept]
 
 
 def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segments:
@@ -198,21 +203,22 @@ def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -
     """
     shares = np.zeros(len(segments.labels))
 
-    def explain(segment: int) -> None:
+    def store_share(segment: int) -> None:
+        """Write the explained share of a segment to ``shares``."""
         movement, visits, repeated = _extract_repetitions(rows, segments, segment, preset)
         kernels.center_repetitions(repeated)
         shares[segment] = kernels.explain_variance(movement.poses, movement.path, visits, repeated)
 
-    map_threads(explain, np.flatnonzero(segments.counts > 1).tolist())
+    map_threads(store_share, np.flatnonzero(segments.counts > 1).tolist())
     return shares
 
 
 def _extract_repetitions(
     rows: Rows, segments: Segments, segment: int, preset: KinemeConstants
 ) -> tuple[Movement, Frames, Floats]:
-    """Return the repeating span of a segment, the borders of its repetitions, and these.
+    """Return the repeating span of a segment, the borders of its repetitions, and their poses.
 
-    Repetitions are (repetitions, places, dims), sampled evenly along their path.
+    Poses are (repetitions, places, dims), sampled evenly along the path of each repetition.
     """
     first, last = segments.firsts[segment : segment + 2]
     inside = first + np.flatnonzero(segments.repeats[first:last])
@@ -260,8 +266,8 @@ def replace_by_occurrences(segments: Segments, found: Occurrences, free: Bools) 
     if len(found):
         before = np.maximum(find_segments(found.starts, begin), 0)
         inside = (found.starts[before] <= begin) & (begin < found.stops[before])
-        first = actions + int(parts.max(initial=-1)) + 1
-        clusters[inside] = first + found.clusters[before[inside]]
+        first_number = actions + int(parts.max(initial=-1)) + 1
+        clusters[inside] = first_number + found.clusters[before[inside]]
     not_periodic = np.unique(labels[free & (labels >= 0)])
     return Segments(borders, labels, primitives, clusters, not_periodic)
 

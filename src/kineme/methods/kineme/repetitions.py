@@ -291,8 +291,8 @@ def measure_saving(
 ) -> float:
     """Return the cost that a span of a view saves by repeating, in samples at the distance `unit`.
 
-    ``rows`` (frames, dims) are the poses or channels at the working rate, ``span`` samples of the
-    view.
+    It is 0 if the span does not repeat, or if its length is outside `SPAN`. ``rows`` (frames, dims)
+    are the poses or channels at the working rate, ``span`` samples of the view.
     """
     start, stop = span
     rate, fps = preset.rate, preset.working_fps

@@ -244,15 +244,15 @@ def group_segments(borders: Samples, sums: Floats, preset: KinemeConstants) -> G
     shortest = round(preset.samples(preset.min_action))
     labels = absorb_short_clusters(labels, lengths, sums, shortest)
     # Merge neighbours of one cluster.
-    first = np.flatnonzero(np.diff(labels, prepend=-1))
-    lengths, sums = np.add.reduceat(lengths, first), sum_runs(sums, first)
-    labels = number_by_appearance(labels[first])
+    run_starts = np.flatnonzero(np.diff(labels, prepend=-1))
+    lengths, sums = np.add.reduceat(lengths, run_starts), sum_runs(sums, run_starts)
+    labels = number_by_appearance(labels[run_starts])
     # One-hot rows (segments, clusters): products with them sum over clusters.
     members = np.eye(int(labels.max()) + 1)[labels]
     within = np.einsum("sc,st,tc->c", members, sums, members) / (2 * lengths @ members)
     cost = within.sum() + segment_cost * len(labels) + cluster_cost * len(within)
     return Grouped(
-        np.append(borders[first], borders[-1]), labels, cost, np.diag(sums) / (2 * lengths)
+        np.append(borders[run_starts], borders[-1]), labels, cost, np.diag(sums) / (2 * lengths)
     )
 
 
@@ -263,7 +263,8 @@ def absorb_short_clusters(
 
     A cluster is short if no run of its segments is `shortest` samples long. A run of short
     segments is split in two: its first part gets the cluster before it, the rest the cluster after
-    it. The split minimises the summed distances to these clusters.
+    it. The split minimises the summed distances to these clusters. If all clusters are short, all
+    segments get cluster 0.
 
     Examples
     --------
@@ -273,9 +274,9 @@ def absorb_short_clusters(
     >>> absorb_short_clusters(np.arange(4), lengths, sums, 7).tolist()
     [0, 0, 3, 3]
     """
-    first = np.flatnonzero(np.diff(labels, prepend=-1))
+    run_starts = np.flatnonzero(np.diff(labels, prepend=-1))
     longest = np.zeros(int(labels.max()) + 1)
-    np.maximum.at(longest, labels[first], np.add.reduceat(lengths, first))
+    np.maximum.at(longest, labels[run_starts], np.add.reduceat(lengths, run_starts))
     long = np.flatnonzero(longest[labels] >= shortest)
     if not len(long):
         return np.zeros_like(labels)
@@ -294,9 +295,9 @@ def absorb_short_clusters(
     return absorbed
 
 
-def sum_runs(sums: Floats, first: Samples) -> Floats:
-    """Sum a matrix (segments, segments) over runs of segments that begin at `first`."""
-    return np.asarray(np.add.reduceat(np.add.reduceat(sums, first, 0), first, 1), np.float64)
+def sum_runs(sums: Floats, starts: Samples) -> Floats:
+    """Sum a matrix (segments, segments) over runs of segments that begin at `starts`."""
+    return np.asarray(np.add.reduceat(np.add.reduceat(sums, starts, 0), starts, 1), np.float64)
 
 
 def spread_samples(start: int, stop: int, most: int) -> Samples:
@@ -380,8 +381,8 @@ def link_parts(
         part_of = np.repeat(np.arange(len(parts)), np.diff(firsts))
         labels = match_clusters_across_parts(means, sizes, part_of, price)[labels]
     labels = number_by_appearance(labels)
-    first = np.flatnonzero(np.diff(labels, prepend=-1))
-    return Level(fine, np.append(ends[first], ends[-1]), labels[first])
+    run_starts = np.flatnonzero(np.diff(labels, prepend=-1))
+    return Level(fine, np.append(ends[run_starts], ends[-1]), labels[run_starts])
 
 
 def match_clusters_across_parts(

@@ -239,7 +239,8 @@ def choose_view(
     """
     voters = [*answers, *others]
     first, last = (
-        sum(measure_mutual_information(answers[one], voter) for voter in voters) for one in (0, -1)
+        sum(measure_mutual_information(answers[index], voter) for voter in voters)
+        for index in (0, -1)
     )
     needed = first + margin * len(voters)
     return len(answers) - 1 if round(last - needed, DIGITS) > 0 else 0
@@ -247,6 +248,8 @@ def choose_view(
 
 def measure_mutual_information(first: Labels, second: Labels) -> float:
     """Return the mutual information of two clusterings, divided by their mean entropy.
+
+    It is 1 if both have one cluster only.
 
     Examples
     --------
@@ -259,10 +262,11 @@ def measure_mutual_information(first: Labels, second: Labels) -> float:
     width = int(second.max()) + 1
     counts = np.bincount(first * width + second, minlength=(int(first.max()) + 1) * width)
     table = counts.reshape(-1, width)
-    one, other = _measure_entropy(table.sum(axis=1)), _measure_entropy(table.sum(axis=0))
-    if one + other == 0:
+    # Sum of the entropies of both clusterings; 0 if each has only one cluster.
+    total = _measure_entropy(table.sum(axis=1)) + _measure_entropy(table.sum(axis=0))
+    if total == 0:
         return 1.0
-    return max(0.0, 2 * (1 - _measure_entropy(table.ravel()) / (one + other)))
+    return max(0.0, 2 * (1 - _measure_entropy(table.ravel()) / total))
 
 
 def _measure_entropy(counts: Labels) -> float:

@@ -127,6 +127,7 @@ def grow_squares_backward(indptr, later, forward_cuts, min_gap, min_count):
 def scan_lines_forward(indptr, indices, min_gap, min_count):
     """Return the frames at which a region, scanned line by line, stops finding neighbours."""
     cuts = []
+    # First frame of the region, number of its neighbours, and frames in a row without any.
     start = region = still = 0
     for i in range(len(indptr) - 1):
         count = 0
@@ -599,7 +600,7 @@ def mark_nearest(indptr, distances, k):
 
     Row i is ``distances[indptr[i] - indptr[0]:indptr[i + 1] - indptr[0]]``.
     """
-    mask = np.ones(len(distances), np.bool_)
+    is_nearest = np.ones(len(distances), np.bool_)
     longest = 0
     for i in range(len(indptr) - 1):
         longest = max(longest, indptr[i + 1] - indptr[i])
@@ -620,8 +621,8 @@ def mark_nearest(indptr, distances, k):
         for e in range(first, first + count):
             tie = distances[e] == limit and ties > 0
             ties -= tie
-            mask[e] = tie or distances[e] < limit
-    return mask
+            is_nearest[e] = tie or distances[e] < limit
+    return is_nearest
 
 
 @njit(

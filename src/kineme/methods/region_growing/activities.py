@@ -98,10 +98,10 @@ def _grow_squares(
     indptr, earlier = _kernels.group_pairs(graph.indptr, graph.indices, True)
     counts = _kernels.grow_squares_forward(indptr, earlier, min_gap, min_count)
     forward = _find_peaks(counts, min_count, min_distance)
-    mask = np.zeros(n, np.bool_)
-    mask[forward] = True
+    is_forward_cut = np.zeros(n, np.bool_)
+    is_forward_cut[forward] = True
     indptr, later = _kernels.group_pairs(graph.indptr, graph.indices, False)
-    counts = _kernels.grow_squares_backward(indptr, later, mask, min_gap, min_count)
+    counts = _kernels.grow_squares_backward(indptr, later, is_forward_cut, min_gap, min_count)
     # A peak is where the region ended; it stopped growing `min_gap` frames later in time.
     backward = np.minimum(_find_peaks(counts, min_count, min_distance) + min_gap, n - 1)
     return ActivityCuts(forward, backward)
@@ -110,13 +110,16 @@ def _grow_squares(
 def _scan_lines(graph: NeighborGraph, min_gap: int, min_count: int) -> ActivityCuts:
     """Find the cuts of a region that is scanned line by line (2017).
 
-    Each frame adds its own neighbours inside the region. The cut is at the last frame that had one.
-    Backward regions also end at forward cuts.
+    Each frame adds its neighbours inside the region. After ``min_gap`` frames without any, a region
+    of more than ``min_count`` neighbours ends: the cut is at its last frame that had a neighbour.
+    Regions grown backward also end at forward cuts.
     """
     forward = _kernels.scan_lines_forward(graph.indptr, graph.indices, min_gap, min_count)
-    mask = np.zeros(len(graph), np.bool_)
-    mask[forward] = True
-    backward = _kernels.scan_lines_backward(graph.indptr, graph.indices, mask, min_gap, min_count)
+    is_forward_cut = np.zeros(len(graph), np.bool_)
+    is_forward_cut[forward] = True
+    backward = _kernels.scan_lines_backward(
+        graph.indptr, graph.indices, is_forward_cut, min_gap, min_count
+    )
     return ActivityCuts(forward, backward)
 
 
@@ -230,13 +233,14 @@ def cluster_segments(
 ) -> Clustering:
     """Group the segments that are linked by warping paths.
 
-    The graph is with its main diagonal. Segment g is ``borders[g]..borders[g + 1]``, both
-    inclusive.
+    The graph has its main diagonal, along which a path links each segment to itself; these links
+    are dropped later. Segment g is ``borders[g]..borders[g + 1]``, both inclusive.
     """
     if preset.cluster_neighbors is not None:
         graph = graph.nearest(preset.cluster_neighbors)
 
     def find_links(g: int) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Return the segments that paths link to segment g, and the share that each path covers."""
         # Rows are those of segment g, columns those of the whole recording.
         rows, columns = (int(borders[g]), int(borders[g + 1]) + 1), (0, graph.n_columns)
         paths = _find_paths(

@@ -101,7 +101,7 @@ class RegionsFound:
 
 
 def _find_main_clusters(clusters: Frames, parents: NDArray[np.intp], lengths: Frames) -> Frames:
-    """Return the cluster of most of the frames of each activity; -1 if most are in none."""
+    """Return the cluster with most frames of each activity; -1 if most have no cluster."""
     frames = np.zeros((int(parents.max()) + 1, int(clusters.max()) + 2), np.int64)
     np.add.at(frames, (parents, clusters), lengths)  # cluster -1 counts in the last column
     main = frames.argmax(axis=1)

@@ -33,7 +33,7 @@ BLOCK_ENTRIES = 1 << 21
 class NeighborGraph:
     """Graph whose row i holds the frames j with ‖x_i − y_j‖ ≤ radius, at most k of them.
 
-    ``graph[i]`` returns them nearest first. They are stored as compressed sparse rows
+    ``graph[i]`` returns these frames nearest first. They are stored as compressed sparse rows
     in the order of columns (the canonical form of scipy): row i is
     ``indices[indptr[i]:indptr[i + 1]]`` with its ``distances``.
 
@@ -104,7 +104,8 @@ class NeighborGraph:
         if self.n_entries == 0 or k >= self.counts.max():
             return self
 
-        def mask(rows: slice) -> NDArray[np.bool_]:
+        def mark_rows(rows: slice) -> NDArray[np.bool_]:
+            """Mark the entries of some rows that are kept."""
             # Pointers of these rows; the kernel subtracts the first of them.
             indptr = self.indptr[rows.start : rows.stop + 1]
             kept: NDArray[np.bool_] = _kernels.mark_nearest(
@@ -112,7 +113,7 @@ class NeighborGraph:
             )
             return kept
 
-        return self.select(np.concatenate(map_threads(mask, make_even_slices(len(self)))))
+        return self.select(np.concatenate(map_threads(mark_rows, make_even_slices(len(self)))))
 
     def select(self, mask: NDArray[np.bool_]) -> NeighborGraph:
         """Return the graph of the stored entries for which the mask is True."""
@@ -284,8 +285,8 @@ def _measure_part(
         return counts, indices, distances
     # The kernel takes pointers instead of counts.
     indptr = np.concatenate([[0], np.cumsum(counts)])
-    mask = _kernels.mark_nearest(indptr, distances, k)
-    return np.minimum(counts, k), indices[mask], distances[mask]
+    is_nearest = _kernels.mark_nearest(indptr, distances, k)
+    return np.minimum(counts, k), indices[is_nearest], distances[is_nearest]
 
 
 def _choose_block_shape(n_rows: int, n_columns: int, lag: int) -> tuple[int, int]:

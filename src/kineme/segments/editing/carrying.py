@@ -199,7 +199,7 @@ def _impose_segments(found: Segmentation, fixed: Rows) -> Segmentation:
         return replace_rows(found, activities)
     primitives = _cut_at_borders(activities, list(found.primitives))
     for row in by_level["activity"]:
-        primitives = _adopt_primitives(primitives, row, found)
+        primitives = _give_activity_to_primitives(primitives, row, found)
     primitives = _cut_at_borders(activities, _insert_fixed(primitives, by_level["primitive"]))
     return replace_rows(found, [*activities, *primitives])
 
@@ -260,12 +260,17 @@ def _shorten_row(
     return rows
 
 
-def _adopt_primitives(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
-    """Give the primitives inside a fixed activity its properties; a transition gets only one."""
+def _give_activity_to_primitives(primitives: Rows, activity: Segment, found: Segmentation) -> Rows:
+    """Move the primitives that overlap a fixed activity into it: kind, cluster and label follow.
+
+    If the activity is a transition, one transition replaces them. ``found`` is the new
+    segmentation, in which the former activity of each primitive is looked up.
+    """
     inside = [i for i, row in enumerate(primitives) if _measure_overlap(row, activity)]
     if activity.kind == "transition":
         transition = replace(activity, level="primitive", label="")
         return [*primitives[: inside[0]], transition, *primitives[inside[-1] + 1 :]]
+    primitives = list(primitives)
     for i in inside:
         old_parent = _find_middle_row(found.activities, primitives[i])
         primitives[i] = change_parent(primitives[i], old_parent, activity)
