@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import islice, pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from sklearn.metrics import normalized_mutual_info_score
 import kineme
 import naive
 from kineme.errors import ParameterError
+from kineme.evaluation import Comparison, covering
 from kineme.features.channels import compute_channel_statistics
 from kineme.methods.kineme import _tree_kernels as kernels
 from kineme.methods.kineme import tree
@@ -20,6 +22,7 @@ from kineme.methods.kineme.preset import SENSORS, estimate_period
 from kineme.methods.kineme.tree import MAX_SHIFT, choose_part_ends
 from kineme.methods.kineme.views import compute_views, measure_mutual_information, reduce_shared
 from kineme.recordings import Signals
+from series import read_series
 
 FPS = 50.0
 seconds = settings(max_examples=60)
@@ -277,6 +280,15 @@ def test_a_change_is_found_at_any_pace(pace: int) -> None:
     starts = found.activities.start_frame
     assert len(starts) == 2
     assert abs(starts[1] - pace * HALF) <= 2 * pace * PERIOD
+
+
+def test_states_of_real_series_are_found(data_dir: Path) -> None:
+    scores = []
+    for values, ends, states in islice(read_series(data_dir / "timeseries" / "tssb"), 0, None, 3):
+        found = kineme.segment(values, fps=1.0, preset="series").per_frame(level="activity")
+        truth = np.repeat(np.unique(states, return_inverse=True)[1], np.diff(ends))
+        scores.append(covering(Comparison(truth, found, 1.0)))
+    assert np.mean(scores) > 0.62
 
 
 def test_the_rate_that_is_given_changes_seconds_only() -> None:

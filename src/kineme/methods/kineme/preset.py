@@ -121,5 +121,9 @@ def estimate_period(values: Floats) -> int | None:
 SERIES = SeriesPreset(
     name="series",
     help="The same at the pace of the series; for time series other than movement.",
+    # Two states of a series may repeat one shape, so that similar repetitions are no reason to
+    # merge clusters or neighbours.
+    min_similarity=1.0,
+    same_set=2.0,
     **OF_SENSORS,
 )
