@@ -1,6 +1,6 @@
 """Compare our methods with other packages on subject 86.
 
-    pip install -r benchmarks/rivals/requirements.txt
+    pip install -r benchmarks/rivals/requirements.txt  # in an environment of its own
     python -m benchmarks rivals [--trials 86_01 …] [--methods claspy_clasp …]
 
 Other packages get the positions of the five end effectors in the body's own frame at 30 Hz,

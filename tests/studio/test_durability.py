@@ -12,6 +12,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -231,13 +232,20 @@ def test_an_upload_that_breaks_off_leaves_nothing(start) -> None:
     def files() -> list[str]:
         return [path.name for path in studio.folder.iterdir()]
 
-    with socket.create_connection(("127.0.0.1", studio.port), timeout=300) as line:
+    def begin_upload(line: socket.socket, length: int) -> None:
         line.sendall(
             "POST /api/recordings?name=half.bvh HTTP/1.1\r\n"
             f"Host: 127.0.0.1:{studio.port}\r\nX-Kineme-Token: {studio.token}\r\n"
-            "Content-Length: 1000000\r\n\r\n".encode()
+            f"Content-Length: {length}\r\n\r\n".encode()
             + b"x" * 1000
         )
+
+    connect = partial(socket.create_connection, ("127.0.0.1", studio.port), timeout=300)
+    with connect() as line:
+        begin_upload(line, 2 * 10**9)
+        assert b" 413 " in line.recv(100)
+    with connect() as line:
+        begin_upload(line, 10**6)
         while len(files()) == 1:
             time.sleep(0.01)
     deadline = time.monotonic() + 60

@@ -1,6 +1,6 @@
 """Aligned cluster analysis, ACA: k-means over the segments of a recording; and HACA on two levels.
 
-A recording at 120 Hz is thinned to blocks of like poses, each stood for by its first frame.
+A recording at 120 Hz is reduced to blocks of similar poses, each represented by its first frame.
 Segments are compared by the dynamic time alignment kernel (DTAK): the best sum of
 frame kernel values along a warping path, over the weights of both segments. Given
 the number of classes, borders and classes are improved in turn: all windows up
@@ -8,7 +8,7 @@ to the longest segment are compared with the present segments, and dynamic
 programming picks the windows of least total distance to their class.
 
 HACA is ACA of the segments that ACA found. The first level cuts the recording into short segments;
-their DTAK matrix takes the frame kernel's place on the second level, where a segment weighs as much
+their DTAK matrix replaces the frame kernel on the second level, where a segment weighs as much
 as the blocks it is made of.
 
 Source: Zhou, De la Torre and Hodgins, FG 2008, TPAMI 35(3), 2013, as their

@@ -1,9 +1,8 @@
 """The methods that kineme is compared with, as presets.
 
-All of them see a body by the rotations of 14 joints, where it has these, and at 120 Hz, as their
-authors did; any other recording as every method sees it. ACA, HACA and GMM have to be told how
-many actions there are (``n_classes``). Values are those of the papers, lengths that they give in
-frames at 120 Hz in seconds.
+All use the rotations of 14 joints at 120 Hz, as their authors did, if the body has these joints,
+and the usual features otherwise. ACA, HACA and GMM need the number of actions (``n_classes``).
+Values are those of the papers; lengths that they give in frames at 120 Hz are in seconds.
 """
 
 from __future__ import annotations
@@ -131,7 +130,7 @@ class ClassCountPreset(BaselinePreset):
 
 @dataclass(frozen=True, kw_only=True)
 class AlignedPreset(ClassCountPreset):
-    """What ACA and HACA share."""
+    """Constants that ACA and HACA share."""
 
     view: ClassVar[View] = "rotation vectors"
 

@@ -68,7 +68,7 @@ Curve = tuple[Floats, float]
 
 
 class ChannelAnchor(NamedTuple):
-    """Where cycles begin: at the maximum of a channel times a sign, or where it exceeds a level."""
+    """Start of cycles: the maximum of sign × channel, or where that rises above a level."""
 
     channel: str
     sign: float

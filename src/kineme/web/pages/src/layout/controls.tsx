@@ -188,7 +188,7 @@ export function useBusy(): [string, (name: string, work: () => Promise<unknown>)
   return [busy.value, run];
 }
 
-/** Render a button of one of several works, named `busy` while it is done. */
+/** Render a button that starts a task, and shows while that task runs (its name is in `busy`). */
 export function WorkButton(
   props: ComponentProps<"button"> & { name: string; busy: string; work: () => Promise<void> },
 ) {

@@ -41,6 +41,9 @@ import { LoopsDialog } from "./dialogs/LoopsDialog";
 import { PAGE_KEYS } from "../page";
 import { STUDIO_KEYS } from "./keys";
 
+/** Dialogs that list the folder. */
+const LISTING = new Set(["compare", "export", "transfer"]);
+
 export function Studio() {
   const store = useStore();
   const { session, view } = useStudio();
@@ -51,7 +54,7 @@ export function Studio() {
   const OpenDialog = dialog && DIALOGS[dialog];
   useSignalEffect(() => {
     // Files or names may have been added.
-    if (view.dialog.value) untracked(() => void session.refresh());
+    if (LISTING.has(view.dialog.value ?? "")) untracked(() => void session.refresh());
   });
   const hasFigure = Boolean(store.recording.value?.motion);
   const tabs = [
