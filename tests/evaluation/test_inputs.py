@@ -43,6 +43,16 @@ def test_gaps_and_transitions_of_a_truth_are_uncertain_borders(tmp_path) -> None
     assert truth.labelling().labels == ("walk", TRANSITION, "jump", TRANSITION, "walk")
 
 
+def test_the_activities_of_a_segment_table_are_a_truth(tmp_path) -> None:
+    path = tmp_path / "truth.csv"
+    path.write_text(
+        "level,kind,start_s,stop_s,label\nactivity,activity,0,2,walk\n"
+        "activity,transition,2,3,\nactivity,activity,3,6,run\nprimitive,activity,0,1,x\n"
+    )
+    truth = read_truth(path, result())
+    assert (truth.labels, truth.latest.tolist()) == (("walk", "run"), [30])
+
+
 def test_one_label_per_frame_of_another_rate(tmp_path) -> None:
     path = tmp_path / "truth.txt"
     path.write_text("walk\n" * 30 + "transition\n" * 10 + "run\n" * 20)

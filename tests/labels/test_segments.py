@@ -222,6 +222,19 @@ def test_parquet_without_pyarrow_names_the_extra(
         write_segments(small, tmp_path / "cuts.parquet")
 
 
+def test_a_list_kept_by_hand_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "by_hand.csv"
+    path.write_text("label,start_s,stop_s,by\nsquat,4,6.5,me\nwalk,0.5,4,me\n")
+    found = read_segments(path, fps=10, n_frames=70)
+    rows = [(row.kind, row.start_frame, row.stop_frame, row.label) for row in found]
+    assert rows == [
+        ("transition", 0, 5, ""),
+        ("activity", 5, 40, "walk"),
+        ("activity", 40, 65, "squat"),
+        ("transition", 65, 70, ""),
+    ]
+
+
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
 def test_comments_are_a_column_that_is_read_again(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"take{suffix}"

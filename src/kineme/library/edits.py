@@ -81,7 +81,7 @@ class Edits:
         """Return the edits with a name for a cluster; an empty name removes it."""
         if name != name.strip() or not name.isprintable():
             raise ParameterError(f"a name is one line of plain text, not {name!r:.60}")
-        names = {**self.names, self.number(cluster): name}
+        names = {**self.names, self.number(cluster): str(name)}  # numpy text is stored, too
         return replace(self, names={number: text for number, text in names.items() if text})
 
     def with_merge(self, cluster: int, others: Sequence[int]) -> Edits:
@@ -96,7 +96,7 @@ class Edits:
         """Return the edits with the segments of a cluster in some recordings as a new cluster."""
         target = self.number(cluster)
         parts = [target, *(old for old, new in self.merged.items() if new == target)]
-        splits = tuple(Split(part, into, tuple(recordings)) for part in sorted(parts))
+        splits = tuple(Split(part, into, tuple(map(str, recordings))) for part in sorted(parts))
         return replace(self, splits=(*self.splits, *splits))
 
     def apply(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
@@ -123,8 +123,10 @@ def read_edits(folder: Path) -> Edits:
     if content.get("schema") != SCHEMA:
         raise ReadError(path, f"has schema {content.get('schema')!r:.40}, not {SCHEMA}")
     try:
-        return convert_json(content, Edits)
-    except ValueError as error:
+        # Without these, missing parts would be taken for empty ones.
+        parts = {name: content[name] for name in ("names", "merged", "splits")}
+        return convert_json(parts, Edits)
+    except (ValueError, KeyError) as error:
         raise ReadError(path, "is damaged: its names, merges or splits are not valid") from error
 
 

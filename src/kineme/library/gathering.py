@@ -14,7 +14,7 @@ from __future__ import annotations
 import warnings
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from hashlib import sha256
 from pathlib import Path
@@ -197,8 +197,10 @@ def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) ->
 
 def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
     """Return tasks for recordings, the largest first, so that processes finish together."""
-    _ = plan.options_digest  # cached in the plan before it is sent to other processes
-    tasks = [Task(path, plan, measure_size(path)) for path in paths]
+    # Each task is sent to another process: without all sources, and with the digest cached.
+    sent = replace(plan, sources=(), missing=())
+    _ = sent.options_digest
+    tasks = [Task(path, sent, measure_size(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
 
 

@@ -17,7 +17,12 @@ from kineme._util.arrays import Float32s, Floats, Ints, Masks
 from kineme.errors import KinemeWarning
 from kineme.live.events import Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
-from kineme.methods.kineme.tree import compute_mean_distances, compute_median_distance
+from kineme.methods.kineme.tree import (
+    MAX_PER_CLUSTER,
+    compute_mean_distances,
+    compute_median_distance,
+    spread_samples,
+)
 from kineme.methods.kineme.views import compute_first_view
 from kineme.methods.prepare import prepare_motion, prepare_signals
 from kineme.methods.segmenter import SegmentOptions, segment_with_options
@@ -34,8 +39,8 @@ MOST_EXAMPLES = 40
 SAME_MOVEMENT = 0.3
 """Distance of a new cluster and an example up to which they are one movement, in units of the
 typical distance of samples that are near in time."""
-EDGE_S = 1.0
-"""Seconds at the ends of activities and examples that are not compared."""
+EDGE = 5
+"""Number of samples at the ends of activities and examples that are not compared: a second."""
 LEAST_S = 1.0
 """Seconds that must be recorded before the recent past is segmented."""
 
@@ -206,14 +211,15 @@ class RecentPast:
         here = found.per_frame(level="activity")
         own = np.where(self.missing | (here < 0), -1, here + len(older))
         group = np.repeat(np.arange(len(older)), [len(rows) for rows in older.values()])
-        group = np.concatenate([group, own])
+        group = np.concatenate([group, own])[frames]
         # A sample near a change averages over both sides.
-        changes = np.flatnonzero(np.diff(group))
-        is_inside = (np.abs(frames[:, None] - changes) > EDGE_S * self.layout.fps).all(axis=1)
+        changes = np.flatnonzero(np.diff(group)) + 0.5
+        is_inside = (np.abs(np.arange(len(group))[:, None] - changes) > EDGE).all(axis=1)
 
         def list_samples(number: int) -> Ints:
-            chosen = group[frames] == number
-            return np.flatnonzero(chosen & is_inside if (chosen & is_inside).any() else chosen)
+            samples = np.flatnonzero((group == number) & is_inside)
+            samples = samples if len(samples) else np.flatnonzero(group == number)
+            return samples[spread_samples(0, len(samples), MAX_PER_CLUSTER)]
 
         examples = {number: list_samples(i) for i, number in enumerate(older)}
         compared = {local: list_samples(local + len(older)) for local in clusters}
@@ -225,8 +231,10 @@ class RecentPast:
         preset = self.options.resolved(signals=is_signals)
         if not isinstance(preset, KinemeConstants):  # other methods have no views
             preset = cast(KinemeConstants, SegmentOptions().resolved(signals=is_signals))
-        preset = preset.at_most(self.layout.fps)
-        recording = self.layout.make_recording(values, np.zeros(len(values), np.bool_))
+        fps = preset.rate_of(values, self.layout.fps)
+        preset = preset.at_most(fps)
+        layout = replace(self.layout, fps=fps)
+        recording = layout.make_recording(values, np.zeros(len(values), np.bool_))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", KinemeWarning)
             if isinstance(recording, Signals):
@@ -235,7 +243,7 @@ class RecentPast:
                 prepared = prepare_motion(recording, preset, self.options.effectors)
         rows = np.concatenate(prepared.features)
         view, at = compute_first_view(rows, preset, joints=prepared.joints)
-        frames = (at * (self.layout.fps / preset.working_fps)).astype(np.int64)
+        frames = (at * (fps / preset.working_fps)).astype(np.int64)
         unit = compute_median_distance(view, preset.comparison_width)
         return view, np.minimum(frames, len(values) - 1), unit
 

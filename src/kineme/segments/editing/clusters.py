@@ -57,7 +57,7 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     """
     row, names = find_segment_at(segmentation, level, frame), collect_names(segmentation)
     label = label or names.get(row.cluster, "")
-    named = _change_rows(segmentation, _mark_row(segmentation, row), label=label)
+    named = _change_rows(segmentation, _mark_row(segmentation, row), label=str(label))
     # Store an empty name for a cluster without one, or this label might be taken for its name.
     return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
@@ -86,7 +86,7 @@ def name_cluster(segmentation: Segmentation, cluster: int, label: str) -> Segmen
     ['stroll', 'stroll']
     """
     members = _mark_members(segmentation, cluster) & ~has_own_name(segmentation)
-    named = _change_rows(segmentation, members, label=label)
+    named = _change_rows(segmentation, members, label=str(label))
     return set_cluster_names(named, collect_names(segmentation) | {cluster: label})
 
 
