@@ -67,6 +67,25 @@ def test_positions_alone_tell_them_within_three_degrees(motion: Motion, name: st
     assert "against" not in channels_of(motion, ["knee_l"])[0].source
 
 
+@pytest.mark.parametrize("right", [90.0, -90.0])
+def test_hips_do_not_depend_on_the_axes_of_bones(motion: Motion, right: float) -> None:
+    skeleton = motion.skeleton
+    # Without rotations, the trunk and the left thigh point along +x, the right one along -x or +x.
+    axes = np.tile(rot.IDENTITY, (skeleton.n_joints, 1))
+    for joint, angle in (("Hips", 90.0), ("LeftUpLeg", -90.0), ("RightUpLeg", right)):
+        axes[motion.joint(joint)] = rot.from_euler(np.radians([[angle]]), "z")[0]
+    above = np.array([rot.IDENTITY if p < 0 else axes[p] for p in skeleton.parents])
+    offsets = rot.rotate(rot.conjugate(above), skeleton.offsets)
+    assert motion.rotations is not None
+    rotations = rot.multiply(rot.multiply(rot.conjugate(above), motion.rotations), axes)
+    other = Motion.from_rotations(
+        replace(skeleton, offsets=offsets), rotations, motion.fps, motion.positions[:, 0]
+    )
+    np.testing.assert_allclose(other.positions, motion.positions, atol=1e-9)
+    for name in ("hip_l", "hip_r"):
+        np.testing.assert_allclose(measure(other, name), measure(motion, name), atol=0.1)
+
+
 def test_where_a_body_stands_and_how_large_it_is_changes_no_angle(motion: Motion) -> None:
     other = scale(move(turn(motion, 1.0), [3.0, 0.0, -2.0]), 0.8)
     for before, after in zip(channels_of(motion), channels_of(other), strict=True):

@@ -61,6 +61,8 @@ ANGLE, CHANNEL = "angle", "channel"
 """Groups that are measured by default."""
 ALIKE = 0.7
 """Least cosine between the axis of a knee and that of the hips: 45 degrees."""
+STANDING = 60.0
+"""Largest angle between a thigh and the downward trunk in a rest pose that stands, in degrees."""
 _SHOWN = 8
 
 
@@ -282,7 +284,7 @@ def _add_angles(motion: Motion, joints: Mapping[str, int], add: Add) -> None:
             pelvis = motion.skeleton.parents[hip]
             if motion.rotations is not None and pelvis >= 0:
                 against = f"against {motion.skeleton.names[pelvis]}"
-                compute = partial(_measure_against_pelvis, motion, *thigh, hips)
+                compute = partial(_measure_against_pelvis, motion, side, joints)
             elif axes is not None:
                 against = "against the pelvis"
                 compute = partial(_measure_against_axes, places, *thigh, axes)
@@ -325,16 +327,30 @@ def _measure_flexion(
     return measure_turn(axis, knee - hip, ankle - knee)
 
 
-def _measure_against_pelvis(motion: Motion, hip: int, knee: int, hips: Sequence[int]) -> Floats:
-    """Return the thigh's forward rotation from the rest pose, relative to the pelvis."""
-    skeleton = motion.skeleton
+def _measure_against_pelvis(motion: Motion, side: str, joints: Mapping[str, int]) -> Floats:
+    """Return the thigh's forward rotation from standing upright, relative to the pelvis."""
+    skeleton, places = motion.skeleton, motion.positions
+    hips, shoulders = ([joints.get(f"{each}_{part}", -1) for each in SIDES]
+                       for part in ("hip", "shoulder"))  # fmt: skip
+    hip, knee = joints[f"{side}_hip"], joints[f"{side}_knee"]
     turned = compute_world_rotations(skeleton, motion.rotations)[:, skeleton.parents[hip]]
-    # Transform the thigh into the frame of the pelvis.
-    thigh = rot.rotate(rot.conjugate(turned), motion.positions[:, knee] - motion.positions[:, hip])
-    places = place_at_rest(skeleton)
-    rest, to_left = places[knee] - places[hip], places[hips[0]] - places[hips[1]]
+    # Transform vectors into the frame of the pelvis.
+    transform = partial(rot.rotate, rot.conjugate(turned))
+    thigh = transform(places[:, knee] - places[:, hip])
+    rest = place_at_rest(skeleton)
+    down, to_left = rest[knee] - rest[hip], rest[hips[0]] - rest[hips[1]]
+    if min(shoulders) >= 0:
+        up = transform(_find_trunk(places, hips, shoulders)).mean(axis=0)
+        thighs = [rest[joints[f"{each}_knee"]] - rest[joints[f"{each}_hip"]]
+                  for each in SIDES if f"{each}_knee" in joints]  # fmt: skip
+        # In rigs with bones along their own axes, thighs may point anywhere without rotations.
+        # Then the pelvis's own axis nearest to the trunk is up, in all recordings of the rig.
+        if not (measure_angle(np.array(thighs), -up) < STANDING).all():
+            nearest = np.argmax(np.abs(up))
+            down = -np.sign(up[nearest]) * np.eye(3)[nearest]
+            to_left = transform(places[:, hips[0]] - places[:, hips[1]]).mean(axis=0)
     # A right-handed turn about the axis to the left swings a hanging thigh back, hence the minus.
-    return -measure_turn(to_left[None], np.broadcast_to(rest, thigh.shape), thigh)
+    return -measure_turn(to_left[None], np.broadcast_to(down, thigh.shape), thigh)
 
 
 def _measure_against_axes(

@@ -20,7 +20,8 @@ is taken. It does not exist for a knee that is not bent in the recording.
 *Angles* are in degrees. From joint positions, the angle is that between two limbs: a knee is at 0
 degrees if thigh and shank are in line, whatever plane it bends in. Skin markers lie beside the
 joints, so that a straight leg has an angle, too. Therefore a knee with markers is measured about
-its axis, with hyperextension below 0. From rotations, the angle is relative to the rest pose.
+its axis, with hyperextension below 0. From rotations, the angle is relative to the rest pose,
+or to the pelvis's own axis along the trunk if the body does not stand in the rest pose.
 """
 
 from __future__ import annotations
