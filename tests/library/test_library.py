@@ -110,7 +110,7 @@ def test_counterexamples_take_away_what_is_more_like_them(library: Library) -> N
 
 def test_a_cluster_is_searched_for_by_number_and_name(library: Library) -> None:
     largest = library.clusters()[0]
-    library.name(largest.cluster, "most of it")
+    library.name(largest.cluster, np.str_("most of it"))
     hits = library.search(cluster="most of it", top=5)
     assert hits == library.search(cluster=largest.cluster, top=5)
     assert hits[0].label == "most of it"
