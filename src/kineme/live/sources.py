@@ -218,8 +218,8 @@ class _Parser:
         remarks, self.remarks = list(self.remarks), ()
         if wrong:
             lines = format_count(wrong, "line")
-            cells = format_count(len(self.names), "cell")
-            remarks.append(f"{lines} left out: not a row of {cells}")
+            expected = format_count(len(self.names), "cell")
+            remarks.append(f"{lines} left out: not a row of {expected}")
         if texts:
             remarks.append(f"{format_count(texts, 'cell')} of text left out")
         return Rows(values, None if self.time is None else np.array(seconds), tuple(remarks))
