@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import kineme as package
-from kineme.datasets import bundled_recording
+from kineme.datasets import bundled_recording, bundled_truth
 
 HIERARCHY = """HIERARCHY
 ROOT Hips
@@ -75,8 +75,6 @@ def test_neither_missing_hands_nor_missing_frames_are_a_failure(
     ("option", "place", "reason"),
     [
         ("--output", "no/such/cuts.csv", "the folder no/such cannot be created"),
-        ("--output", "cuts.xlsx", "the suffix must be one of .csv, .json, .parquet"),
-        ("--plot", "cuts.jpeg2", "the suffix must be one of .png, .pdf, .svg"),
         ("--output", "/proc/cuts.csv", "/proc"),
     ],
 )
@@ -103,12 +101,47 @@ def test_a_place_that_cannot_be_written(
         ("segment", "a.bvh", "--level", "phrase"),
         ("segment", "a.bvh", "b.bvh", "-o", "cuts.csv"),
         ("segment", "x/a.bvh", "x/b.bvh", "-o", "{parent}.csv"),
+        ("segment", "a.bvh", "-o", "cuts.xlsx"),
+        ("segment", "a.bvh", "--plot", "cuts.jpeg2"),
+        ("report", "a.bvh", "-o", "page.docx"),
+        ("live", "--replay", "a.bvh", "--speed", "-1"),
         ("convert", "a.bvh", "b.bvh", "folder"),
     ],
 )
 def test_a_command_that_makes_no_sense_exits_with_2(kineme, arguments: tuple[str, ...]) -> None:
     done = kineme(*arguments, code=2)
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("segment", "--take", "nope"), "there is no take 'nope'"),
+        (("info", "--person", "3"), "there is no person '3'"),
+        (("events", "--c3d", "out.c3d"), "is not a C3D file"),
+        (("cycles", "--anchor", "knee_l maxi"), "left foot strike, left foot off, right foot"),
+        (("info", "--effectors", "Foo", "--joints"), None),
+    ],
+)
+def test_a_value_that_fits_no_recording_is_one_sentence(
+    kineme, arguments: tuple[str, ...], reason: str | None
+) -> None:
+    done = kineme(*arguments, bundled_recording(), code=int(reason is not None))
+    if reason is None:
+        assert "not Foo;" in done.stdout
+    else:
+        assert reason in done.stderr
+        assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "name", ["cuts.csv", "cuts.json", "cuts.parquet", "cuts.eaf", "a.TextGrid"]
+)
+def test_a_table_of_segments_is_not_read_as_a_recording(kineme, name: str) -> None:
+    package.write_segments(package.read_segments(bundled_truth()), name)
+    for command in ("segment", "info"):
+        done = kineme(command, name, code=1)
+        assert done.stderr.startswith(f"error: {name}: is a table of segments, not a recording")
 
 
 @pytest.mark.parametrize(

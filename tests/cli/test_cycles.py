@@ -145,7 +145,12 @@ def test_where_no_repetition_is_an_inner_one_it_says_what_to_do(kineme, take: Pa
     lines = ["start_s,stop_s,label,level", "0,5.5,walk,activity", "0,2.7,walk,primitive"]
     lines.append("2.7,5.5,walk,primitive")
     Path("two.csv").write_text("\n".join(lines) + "\n")
-    done = kineme("cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l")
+    command = "cycles", "take.bvh", "--segments", "two.csv", "--channels", "knee_l"
+    done = kineme(*command, "--plot", "c.png", "-o", "c.csv")
+    assert "c.png: no inner repetitions to draw: --ends" in done.stderr
+    assert Path("c.csv").exists()
+    kineme(*command, "--plot", "c.png", code=1)
+    assert not Path("c.png").exists()
     assert "walk: no inner repetitions; --ends includes the first and last" in done.stdout
 
 

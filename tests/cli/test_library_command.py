@@ -75,6 +75,7 @@ SENSELESS = [
     (("search", "lib", "--like", "a.bvh", "--like", "b.bvh", "--start", "1"), 2, "single"),
     (("search", "lib", "--like", "take.bvh", "--threshold", "-1"), 1, "threshold"),
     (("query", "lib", "select nothing"), 1, "nothing"),
+    (("merge", "lib", "0", "0"), 1, "'0' is the same cluster"),
     (("name", "lib", "99", "walk"), 1, "no cluster is called 99"),
 ]  # fmt: skip
 
@@ -100,7 +101,16 @@ def test_control_c_ends_a_build_quietly(interrupted, tmp_path: Path) -> None:
     assert interrupted(at_work, "library", "build", ".", "--into", "lib") == (130, "", "")
 
 
-def test_a_build_from_nothing_leaves_nothing(tmp_path: Path, kineme) -> None:
-    built = kineme("library", "build", "--into", "lib", code=1)
-    assert built.stderr == "error: lib: nothing to build from: name recordings or folders\n"
+@pytest.mark.parametrize(
+    ("sources", "reason"),
+    [
+        ([], "lib: nothing to build from: name recordings or folders"),
+        (["missing"], "missing: there is no such file or folder"),
+    ],
+)
+def test_a_build_from_nothing_leaves_nothing(
+    tmp_path: Path, kineme, sources: list[str], reason: str
+) -> None:
+    built = kineme("library", "build", *sources, "--into", "lib", code=1)
+    assert built.stderr == f"error: {reason}\n"
     assert not (tmp_path / "lib").exists()

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import kineme as package
+from kineme.cli.live import describe
+from kineme.live.events import ActivityEnded
 from streams import FPS, two_exercises
 
 
@@ -65,3 +67,9 @@ def test_what_makes_no_sense_is_said_in_a_sentence(kineme, options, text, code, 
     done = kineme("live", *options, text=text, code=code)
     assert advice in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(("count", "text"), [(1, "1 repetition"), (2, "2 repetitions")])
+def test_the_end_of_an_activity_counts_its_repetitions(count: int, text: str) -> None:
+    event = ActivityEnded(at_s=9.0, start_s=2.0, stop_s=8.0, cluster=0, repetitions=count)
+    assert describe(event).endswith(f"cluster 0 ends, {text}")

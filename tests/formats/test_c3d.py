@@ -114,6 +114,19 @@ def test_events_count_from_the_first_frame(tmp_path: Path) -> None:
     assert "the first frame is frame 201 of the capture" in motion.provenance.notes
 
 
+def test_the_note_of_events_names_ten(tmp_path: Path) -> None:
+    events = {
+        ("EVENT", "USED"): np.int16([12]),
+        ("EVENT", "CONTEXTS"): ["Left"] * 12,
+        ("EVENT", "LABELS"): ["Foot Strike"] * 12,
+        ("EVENT", "TIMES"): np.float32([[0, 0.1 * number] for number in range(12)]),
+    }
+    motion = read(tmp_path, "take.c3d", to_c3d(POINTS, PLUG_IN_GAIT, more=events))
+    (note,) = (each for each in map(str, motion.provenance.notes) if each.startswith("events: "))
+    assert note.count(" at ") == 10
+    assert note.endswith("at 0.90 s and 2 more")
+
+
 def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
     labels = [*PLUG_IN_GAIT, "LKneeAngles", "*12", "C_101", "Unlabeled 7", "C7b"]
     points = np.concatenate([POINTS, np.full((60, 5, 3), 90.0)], axis=1)

@@ -36,7 +36,7 @@ TEXTS_AND_COUNTERS = [
 @pytest.mark.parametrize(
     ("lines", "remarks"),
     [
-        *((lines, ["2 lines"]) for lines in WRONG_LINES),
+        *((lines, ["2 lines left out: not a row of 3 cells"]) for lines in WRONG_LINES),
         *((lines, ["note", "index"]) for lines in TEXTS_AND_COUNTERS),
     ],
 )

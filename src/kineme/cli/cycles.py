@@ -19,7 +19,7 @@ from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment
 from kineme.cli.tables import make_table, show_written
-from kineme.cli.terminal import Console
+from kineme.cli.terminal import Console, print_skipped
 from kineme.cycles import (
     Cycles,
     as_repetitions,
@@ -191,6 +191,9 @@ def cycles(
             owners = result.columns["recording"]
             named = dict.fromkeys(owners.tolist()) if compare is not None else ()
             sessions = [result.select(owners == name) for name in named]
+            plot = _drop_empty_plot(
+                plot, result, ends=ends, alone=output is compare is sides is None
+            )
             targets = output, plot, compare, sides
             _write_results(result, sessions, *targets, ends=ends)
             if not quiet:
@@ -320,6 +323,22 @@ def _choose_channels(
         return names
     chosen = names or [channel.name for channel in channels_of(recordings[0])]
     return [*chosen, *stances[0]]
+
+
+def _drop_empty_plot(plot: Path | None, cycles: Cycles, *, ends: bool, alone: bool) -> Path | None:
+    """Return the path of the plot, or None after a message if there are no mean curves to draw.
+
+    Raise ParameterError if the plot is ``alone``, that is, the only result.
+    """
+    values = _tabulate_measures(cycles, ends=ends)
+    if plot is None or any(values[group, "duration_s"][0] for group in cycles.groups):
+        return plot
+    advice = "exclude fewer" if ends else "--ends includes the first and last"
+    reason = f"{plot}: no {'' if ends else 'inner '}repetitions to draw: {advice}"
+    if alone:
+        raise ParameterError(reason)
+    print_skipped(reason)
+    return None
 
 
 def _draw(cycles: Cycles, sessions: list[Cycles], path: Path, *, ends: bool, sides: bool) -> None:

@@ -22,7 +22,7 @@ from kineme.cycles.table import Columns
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
 from kineme.labels import write_segments
-from kineme.labels.c3d_events import write_events
+from kineme.labels.c3d_events import require_c3d, write_events
 
 FEET = "Feet"
 
@@ -85,6 +85,8 @@ def events(
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         with batch.progress(path) as stage:
             stage("reading")
+            if targets[3] is not None:
+                require_c3d(path)
             recording = read(path, **vars(options))
             contacts = foot_events(recording, left=left, right=right)
             measures = gait_of(contacts, recording)

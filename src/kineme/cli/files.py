@@ -304,16 +304,22 @@ def check_writable(
 ) -> None:
     """Raise WriteError for results that cannot be written, before any work is done.
 
-    Creates their folders.
+    Creates their folders. Raise typer.BadParameter if a suffix is wrong.
     """
+    check_suffixes(table, picture, page)
+    for path in filter(None, (table, picture, page)):
+        make_parent_folder(path)
+
+
+def check_suffixes(
+    table: Path | None = None, picture: Path | None = None, page: Path | None = None
+) -> None:
+    """Raise typer.BadParameter for results whose suffix names no format that can be written."""
     from kineme.labels import list_written_suffixes
 
     for path, suffixes in ((table, list_written_suffixes()), (picture, PICTURES), (page, PAGES)):
-        if path is None:
-            continue
-        if path.suffix.lower() not in suffixes:
-            raise WriteError(path, f"the suffix must be one of {', '.join(suffixes)}")
-        make_parent_folder(path)
+        if path is not None and path.suffix.lower() not in suffixes:
+            raise typer.BadParameter(f"{path}: the suffix must be one of {', '.join(suffixes)}")
 
 
 def make_parent_folder(path: Path) -> None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from kineme._util.checks import format_count
 from kineme.cli.files import check_writable
 from kineme.cli.help import INPUT, METHOD, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
@@ -48,7 +49,7 @@ def live(
     segment_options: SegmentOptions,
     outputs: dict[str, Any],
     replay: Annotated[Path | None, option(INPUT, "Replay this recording.")] = None,
-    speed: Annotated[float, option(INPUT, "Speed factor of --replay; 0: no delay.")] = 1.0,
+    speed: Annotated[float, option(INPUT, "Speed factor of --replay; 0: no delay.", min=0)] = 1.0,
     lsl: Annotated[
         str | None, option(INPUT, "Read an LSL stream, by name or type.", metavar="NAME")
     ] = None,
@@ -252,7 +253,8 @@ def describe(event: Event) -> str:
     if isinstance(event, ActivityStarted):
         return f"{event.start_s:8.2f} s  {_format_name(event)} begins"
     if isinstance(event, ActivityEnded):
-        return f"{event.stop_s:8.2f} s  {_format_name(event)} ends, {event.repetitions} repetitions"
+        count = format_count(event.repetitions, "repetition")
+        return f"{event.stop_s:8.2f} s  {_format_name(event)} ends, {count}"
     if isinstance(event, Repetition):
         return f"{event.stop_s:8.2f} s  cluster {event.cluster}: {event.number}"
     if isinstance(event, Gap):

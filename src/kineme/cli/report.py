@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from kineme.cli.files import Batch, Files, Recursive, SegmentTable, check_writable
+from kineme.cli.files import Batch, Files, Recursive, SegmentTable, check_suffixes, check_writable
 from kineme.cli.help import output_option
 from kineme.cli.options import READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment, show_envelopes
@@ -38,6 +38,8 @@ def report(
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     pages = batch.files("--output", output, ".html")
+    for page in pages:
+        check_suffixes(page=page)
     batch.tables("--segments", segments)  # fail early if there are none
 
     def work(path: Path, options: ReadOptions, table: Path | None, page: Path) -> None:

@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.parallel import announce_compilation
-from kineme.cli.files import Batch, FilesOfFormats, Recursive, check_target_folder, check_writable
+from kineme.cli.files import (
+    Batch,
+    FilesOfFormats,
+    Recursive,
+    check_suffixes,
+    check_target_folder,
+    check_writable,
+)
 from kineme.cli.help import INPUT, OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, SEGMENTING, Json, Quiet, add_options
 from kineme.cli.tables import show_segments
@@ -89,6 +96,8 @@ def segment(
     tables = batch.targets("--output", output, ".csv")
     pictures = batch.targets("--plot", plot, ".png")
     pages = batch.targets("--report", report, ".html")
+    for results in zip(tables, pictures, pages, strict=True):
+        check_suffixes(*results)
 
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
         check_writable(*targets)

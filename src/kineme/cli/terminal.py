@@ -19,7 +19,7 @@ from rich.console import ConsoleOptions, RenderableType
 from rich.segment import Segment
 
 from kineme._util.parallel import announce_to
-from kineme.errors import KinemeError, KinemeWarning
+from kineme.errors import FileError, KinemeError, KinemeWarning
 
 _CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 """Control characters except tab and line feed, and characters that change text direction."""
@@ -98,7 +98,8 @@ def exit_on_error(subject: object = "") -> Iterator[None]:
     try:
         yield
     except KinemeError as error:
-        print_error(format_line(error, subject=subject))
+        # The error of a file names that file.
+        print_error(format_line(error, subject="" if isinstance(error, FileError) else subject))
         raise typer.Exit(1) from error
 
 

@@ -36,7 +36,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Unpack, get_args
 
-from kineme._util.checks import is_number, is_one_of
+from kineme._util.checks import is_number, is_one_of, join_names
 from kineme._util.files import atomic_folder, atomic_write
 from kineme.clips.manifest import (
     MANIFEST,
@@ -175,7 +175,8 @@ def split_all(
     if not any(rows for _, rows, *_ in clips):
         clusters = {row.cluster for _, segmentation in inputs for row in segmentation.level(level)}
         raise ParameterError(
-            f"no {level} is in cluster {cluster}; there are {sorted(clusters - {-1})}"
+            f"no {level} is in cluster {cluster}; there are "
+            f"{join_names([*map(str, sorted(clusters - {-1}))]) or 'none'}"
         )
     return write_clips(clips, folder, **options)
 

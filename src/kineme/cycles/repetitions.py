@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import as_floats
+from kineme._util.checks import as_floats, join_names
 from kineme.cycles.borders import Features, Run, find_vertex, make_run, shift_to_common_phase
 from kineme.cycles.channels import channels_of
 from kineme.cycles.events import (
@@ -543,8 +543,8 @@ def _find_event_times(recording: Motion | Signals, anchor: str) -> Floats:
     if len(marked):
         return marked
     names = sorted({text for _, text in recording.provenance.events})
+    choices = [*names, *(f"{side} {contact}" for side in SIDES for contact in (STRIKE, OFF))]
     raise ParameterError(
-        f"no event {anchor!r}; there are "
-        f"{', '.join([*names, 'left foot strike, and so on'])}. For a channel, give its "
+        f"no event {anchor!r}; there are {join_names(choices, 12)}. For a channel, give its "
         "maximum or a threshold, as in 'knee_r max' or 'knee_r > 40'"
     )

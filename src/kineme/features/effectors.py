@@ -44,7 +44,7 @@ _MAX_BRANCHES = 32
 _MIN_FOOT = 0.1
 """Shortest foot that gives a direction, as a share of the length of the leg."""
 PARTS = ("left_ankle", "right_ankle", "head", "left_wrist", "right_wrist")
-MAX_SHOWN = 60
+MAX_SHOWN = 10
 """Largest number of joints that a message lists by name."""
 _NAMED = (("*_ankle", "*_foot"), ("head",), ("*_wrist", "*_hand"))
 GROUND_PERCENTILE = 5.0
@@ -167,9 +167,8 @@ def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
         value: object = names
         is_list = isinstance(value, Collection) and not isinstance(value, str)
         if not is_list or len(names) != len(PARTS):
-            raise EndEffectorError(
-                f"five joint names are needed ({', '.join(PARTS)}), not {names!r}"
-            )
+            given = join_names([*map(str, names)]) if is_list else repr(value)
+            raise EndEffectorError(f"five joint names are needed ({', '.join(PARTS)}), not {given}")
         names = dict(zip(PARTS, names, strict=True))
     for part, name in names.items():
         if part not in PARTS:

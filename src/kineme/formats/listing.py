@@ -27,7 +27,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kineme._util.checks import format_count
-from kineme._util.files import HEAD, POSES, read_head, read_tail
+from kineme._util.files import HEAD, POSES, TAIL, read_head, read_tail
 from kineme.errors import ReadError
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
@@ -231,6 +231,23 @@ def is_boris_table(head: str) -> bool:
 def find_label_program(head: str) -> str | None:
     """Return the program whose table of labels starts with this text, or None."""
     return "ELAN" if is_elan_table(head) else "BORIS" if is_boris_table(head) else None
+
+
+def refuse_segments(content: FileContent) -> None:
+    """Raise ReadError if a file holds segments: kineme's own tables, or tiers of ELAN or Praat."""
+    head = content.data[:HEAD]
+    first_line = head.partition(b"\n")[0]
+    names = {name.strip(b'" \r') for name in re.split(rb"[,;\t]", first_line)}
+    if (
+        names >= {b"start_frame", b"stop_frame", b"level", b"cluster"}
+        or b'"kineme.segments/' in head
+        or (head.startswith(b"PAR1") and b"kineme.segments" in content.data[-TAIL:])
+        or content.path.suffix.lower() in (".eaf", ".textgrid")
+    ):
+        raise content.error(
+            "is a table of segments, not a recording: give the recording instead. Commands such "
+            "as report, cycles and split take this file with --segments"
+        )
 
 
 def refuse_labels(content: FileContent) -> None:

@@ -12,6 +12,7 @@ from kineme._util.checks import check_path, check_type, warn
 from kineme._util.files import AnyPath, translate_read_errors
 from kineme.errors import ReadError, SeveralPeopleError, WriteError
 from kineme.formats.files import FileContent, load, load_head
+from kineme.formats.listing import refuse_segments
 from kineme.formats.options import ReadOptions
 from kineme.formats.plausibility import check_bone_lengths, check_posture
 from kineme.formats.registry import Sketch, is_video, recognise, supported_formats
@@ -318,6 +319,7 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
     """Return the recording in a file, and check what its reader returned."""
     if _BLANK.match(content.data):
         raise content.error("the file is empty")
+    refuse_segments(content)
     candidate = recognise(content)
     if candidate.read is None:
         raise content.error("this format can only be written, not read")
@@ -331,6 +333,12 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
     if isinstance(recording, Motion):
+        # Number 0 is accepted everywhere, so that one command reads files of several formats.
+        if options.take not in (None, "0") and recording.provenance.take is None:
+            raise content.error(
+                f"there is no take {options.take!r}: it holds a single one, so leave out take= "
+                "(--take)"
+            )
         recording = check_bone_lengths(recording)
         return check_posture(recording) if options.up is None else recording
     return recording

@@ -121,8 +121,7 @@ def write_events(
     target = Path(path)
     if target.exists() and Path(source).exists() and target.samefile(source):
         raise WriteError(target, "is the recording itself: name another file")
-    if Path(source).suffix.lower() != ".c3d":
-        raise ReadError(source, "is not a C3D file: events can only be written to a copy of a C3D")
+    require_c3d(source)
     if target.suffix.lower() != ".c3d":
         raise WriteError(target, "must end in .c3d")
     with translate_read_errors(source):
@@ -156,6 +155,12 @@ def _split_side(name: str) -> tuple[str, str]:
     if side.lower() not in SIDES or not label:
         return "", " ".join(name.split())
     return side.capitalize(), label.title() if label.islower() else label
+
+
+def require_c3d(source: str | PathLike[str]) -> None:
+    """Raise ReadError unless a file has the suffix of C3D."""
+    if Path(source).suffix.lower() != ".c3d":
+        raise ReadError(source, "is not a C3D file: events can only be written to a copy of a C3D")
 
 
 def read(path: Path, names: Collection[str] | None = None) -> Labels:

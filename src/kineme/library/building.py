@@ -145,7 +145,7 @@ def build(
     ParameterError
         No source, or invalid options.
     ReadError
-        The folder is not a library of this version.
+        The folder is not a library of this version, or no source of a new library exists.
     WriteError
         The folder cannot be written, or another build is running on it.
     MissingDependencyError
@@ -169,6 +169,9 @@ def build(
         check_type(options, (kind, type(None)), "build", f"{kind.__name__}() makes one")
     with start_processes(int(jobs)) if client is None else connect(client) as executor:
         added, removed = as_paths(sources), as_paths(remove)
+        is_new = not make_path(into).exists()
+        if is_new and added and not any(make_absolute(source).exists() for source in added):
+            raise ReadError(added[0], NEVER_FOUND)  # before the folder is created
         folder = open_folder(into, added)
         with lock_for_writing(folder, "build"), translate_remote_errors(folder):
             head = read_json(folder / HEAD)

@@ -299,6 +299,8 @@ class Library:
         with self._tables.editing():
             target, *same = self.numbers(cluster)
             moved = [*same, *(number for other in others for number in self.numbers(other))]
+            if {target}.issuperset(moved):
+                raise ParameterError(f"{cluster!r} is the same cluster: name at least two")
             self._tables.write(self._tables.edits.with_merge(target, moved))
         return self
 

@@ -19,7 +19,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme._util.checks import join_names, make_unique, require_extra
+from kineme._util.checks import format_count, join_names, make_unique, require_extra
 from kineme.errors import ParameterError
 from kineme.live.intake import count_rows_for_unit, guess_unit
 from kineme.recordings import Motion, Signals, Skeleton
@@ -217,9 +217,11 @@ class _Parser:
         values = np.array(rows, np.float64).reshape(-1, len(self.at))  # NaN for None
         remarks, self.remarks = list(self.remarks), ()
         if wrong:
-            remarks.append(f"{wrong} lines that are no rows of {len(self.names)} cells left out")
+            lines = format_count(wrong, "line")
+            expected = format_count(len(self.names), "cell")
+            remarks.append(f"{lines} left out: not a row of {expected}")
         if texts:
-            remarks.append(f"{texts} cells of text left out")
+            remarks.append(f"{format_count(texts, 'cell')} of text left out")
         return Rows(values, None if self.time is None else np.array(seconds), tuple(remarks))
 
     def _split_line(self, line: str) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from kineme._util.checks import make_unique
+from kineme._util.checks import join_names, make_unique
 from kineme.formats.channels.reading import ChannelTable, select_columns, to_signals
 from kineme.formats.files import FileContent
 from kineme.formats.markers.c3d_file import C3D, parse_c3d
@@ -96,7 +96,8 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
     pairs = zip(file.events, file.event_subjects, strict=True)
     events = [event for event, subject in pairs if subject not in others]
     if events:
-        read = read.noted("events: " + ", ".join(f"{name} at {at:.2f} s" for at, name in events))
+        texts = [f"{name} at {at:.2f} s" for at, name in events]
+        read = read.noted(f"events: {join_names(texts, 10)}")
     return replace(motion, provenance=read.marked(events))
 
 
