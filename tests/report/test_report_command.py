@@ -74,7 +74,7 @@ def test_targets_are_checked_before_any_work(folder: Path) -> None:
         ("segment", "one.bvh", "--report", "page.png"),
     ):
         result = run(*arguments)
-        assert result.exit_code == 1
+        assert result.exit_code == 2
         assert "suffix must be one of .html" in result.output
     assert run("segment", "one.bvh", "two.bvh", "--report", "page.html").exit_code == 2
     assert sorted(path.name for path in folder.iterdir()) == ["one.bvh", "two.bvh"]
