@@ -13,9 +13,10 @@ from typer.testing import CliRunner
 import kineme
 from kineme.cli.app import app
 from kineme.datasets import bundled_recording
+from kineme.recordings.operations import cut
 from segmentations import make_activities
 
-MOTION = kineme.recordings.operations.cut(kineme.read(bundled_recording()), 0, 900)
+MOTION = cut(kineme.read(bundled_recording()), 0, 900)
 
 
 @pytest.fixture

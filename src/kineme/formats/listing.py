@@ -19,6 +19,7 @@ Tables of labels by ELAN and BORIS share suffixes with recordings; their first b
 
 from __future__ import annotations
 
+import codecs
 import os
 import re
 import zipfile
@@ -235,13 +236,13 @@ def find_label_program(head: str) -> str | None:
 
 def refuse_segments(content: FileContent) -> None:
     """Raise ReadError if a file holds segments: kineme's own tables, or tiers of ELAN or Praat."""
-    head = content.data[:HEAD]
+    head = content.data[:HEAD].removeprefix(codecs.BOM_UTF8)
     first_line = head.partition(b"\n")[0]
     names = {name.strip(b'" \r') for name in re.split(rb"[,;\t]", first_line)}
     if (
         names >= {b"start_frame", b"stop_frame", b"level", b"cluster"}
         or b'"kineme.segments/' in head
-        or (head.startswith(b"PAR1") and b"kineme.segments" in content.data[-TAIL:])
+        or (head.startswith(b"PAR1") and b"kineme.segments/" in content.data[-TAIL:])
         or content.path.suffix.lower() in (".eaf", ".textgrid")
     ):
         raise content.error(

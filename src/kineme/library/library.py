@@ -299,9 +299,10 @@ class Library:
         with self._tables.editing():
             target, *same = self.numbers(cluster)
             moved = [*same, *(number for other in others for number in self.numbers(other))]
-            if {target}.issuperset(moved):
+            if {cluster}.issuperset(others):
                 raise ParameterError(f"{cluster!r} is the same cluster: name at least two")
-            self._tables.write(self._tables.edits.with_merge(target, moved))
+            if not {target}.issuperset(moved):  # else they are merged already
+                self._tables.write(self._tables.edits.with_merge(target, moved))
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:

@@ -39,8 +39,8 @@ MOST_EXAMPLES = 40
 SAME_MOVEMENT = 0.3
 """Distance of a new cluster and an example up to which they are one movement, in units of the
 typical distance of samples that are near in time."""
-EDGE = 5
-"""Number of samples at the ends of activities and examples that are not compared: a second."""
+EDGE_S = 1.0
+"""Seconds at the ends of activities and examples that are not compared."""
 LEAST_S = 1.0
 """Seconds that must be recorded before the recent past is segmented."""
 
@@ -206,7 +206,9 @@ class RecentPast:
     ) -> dict[int, int]:
         """Return the numbers of clusters that are near an example of an older cluster."""
         older = {number: rows for number, rows in self.examples.items() if number not in taken}
-        view, frames, unit = self._compute_view(np.concatenate([*older.values(), self.values]))
+        view, frames, unit, edge = self._compute_view(
+            np.concatenate([*older.values(), self.values])
+        )
         # Number the examples, then the clusters of the recent past.
         here = found.per_frame(level="activity")
         own = np.where(self.missing | (here < 0), -1, here + len(older))
@@ -214,7 +216,7 @@ class RecentPast:
         group = np.concatenate([group, own])[frames]
         # A sample near a change averages over both sides.
         changes = np.flatnonzero(np.diff(group)) + 0.5
-        is_inside = (np.abs(np.arange(len(group))[:, None] - changes) > EDGE).all(axis=1)
+        is_inside = (np.abs(np.arange(len(group))[:, None] - changes) > edge).all(axis=1)
 
         def list_samples(number: int) -> Ints:
             samples = np.flatnonzero((group == number) & is_inside)
@@ -225,8 +227,11 @@ class RecentPast:
         compared = {local: list_samples(local + len(older)) for local in clusters}
         return _match_nearest(view, unit, examples, compared)
 
-    def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float]:
-        """Return the view of frames, the frame of each of its samples, and its typical distance."""
+    def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float, float]:
+        """Return the view of frames, and the frame of each of its samples.
+
+        Also return the typical distance of samples, and the number of samples in `EDGE_S`.
+        """
         is_signals = self.layout.skeleton is None
         preset = self.options.resolved(signals=is_signals)
         if not isinstance(preset, KinemeConstants):  # other methods have no views
@@ -245,7 +250,7 @@ class RecentPast:
         view, at = compute_first_view(rows, preset, joints=prepared.joints)
         frames = (at * (fps / preset.working_fps)).astype(np.int64)
         unit = compute_median_distance(view, preset.comparison_width)
-        return view, np.minimum(frames, len(values) - 1), unit
+        return view, np.minimum(frames, len(values) - 1), unit, preset.samples(EDGE_S)
 
 
 def _match_nearest(
