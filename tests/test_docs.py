@@ -101,7 +101,7 @@ def test_json_schema_of_the_docs_is_that_of_the_files(tmp_path: Path) -> None:
 
 
 def test_citation_has_the_form_of_its_format_and_the_version_of_the_package() -> None:
-    """The schema has the fields that we use: cffconvert, the checker, wants an old jsonschema."""
+    """Check the fields that we use; the checker cffconvert wants an old jsonschema."""
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     schema = json.loads((ROOT / "tests" / "citation.schema.json").read_text(encoding="utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)

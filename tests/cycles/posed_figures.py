@@ -1,4 +1,4 @@
-"""The synthetic figure at known angles, and recordings that not every set has."""
+"""Pose the synthetic figure at known angles, and find recordings that not every set has."""
 
 from __future__ import annotations
 

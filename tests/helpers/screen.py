@@ -91,7 +91,7 @@ class Screen:
         self.page.mouse.click(*self.point(middle, segment["level"]))
 
     def name_segment(self, label: str) -> None:
-        """The segment at the playhead, with the keyboard."""
+        """Name the segment at the playhead, with the keyboard."""
         self.page.keyboard.press("n")
         self.page.keyboard.type(label)
         self.page.keyboard.press("Enter")

@@ -25,7 +25,7 @@ def named(studio: Studio, label: str = "hop") -> dict[str, Any]:
 
 
 def versions(studio: Studio) -> list[dict[str, Any]]:
-    """The tables that were replaced, the latest first."""
+    """Return the tables that were replaced, the latest first."""
     return studio.get(f"{studio.one}/versions").json()["versions"]
 
 

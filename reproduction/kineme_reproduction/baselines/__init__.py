@@ -1,4 +1,4 @@
-"""The methods that kineme is compared with.
+"""Methods that kineme is compared with.
 
 They are pure functions on arrays (frames, dims) and return `Segments`.
 """

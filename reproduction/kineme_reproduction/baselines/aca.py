@@ -72,15 +72,11 @@ def aca(features: Floats, preset: AcaPreset) -> Segments:
     ParameterError
         The recording is too short for the classes or lengths.
     """
-    n_classes, shortest, longest = preset.required_classes(), preset.shortest, preset.longest
+    n_classes, lengths = preset.required_classes(), (preset.shortest, preset.longest)
     random = np.random.RandomState(preset.seed)
-    blocks = block_starts(features, preset, random)
-    check_room(len(blocks), n_classes, shortest, longest, preset.longest_block)
-    kernel = frame_kernel(features[blocks], preset.nearest_share)
-    weights = np.ones(len(blocks))
-    lengths = shortest, longest
+    blocks, kernel, weights = reduce_to_blocks(features, preset, n_classes, lengths, random)
     first = initial_states(kernel, n_classes, lengths, preset.starts, preset, random)
-    best = least([improve(kernel, weights, each, n_classes, longest, preset) for each in first])
+    best = least([improve(kernel, weights, each, n_classes, lengths[1], preset) for each in first])
     return segments_of(best, np.append(blocks, len(features)))
 
 
@@ -107,10 +103,7 @@ def haca_levels(features: Floats, preset: HacaPreset) -> tuple[Segments, Segment
     n_classes, fine_classes = preset.required_classes(), preset.fine_classes
     lengths = preset.fine_lengths
     random = np.random.RandomState(preset.seed)
-    blocks = block_starts(features, preset, random)
-    check_room(len(blocks), fine_classes, *lengths, preset.longest_block)
-    kernel = frame_kernel(features[blocks], preset.nearest_share)
-    weights = np.ones(len(blocks))
+    blocks, kernel, weights = reduce_to_blocks(features, preset, fine_classes, lengths, random)
     levels: list[tuple[State, State]] = []
     for start in initial_states(kernel, fine_classes, lengths, preset.fine_starts, preset, random):
         fine = improve(kernel, weights, start, fine_classes, lengths[1], preset)
@@ -140,6 +133,23 @@ def second_level(
     return least(
         [improve(segments, segment_weights, one, n_classes, lengths[1], preset) for one in first]
     )
+
+
+def reduce_to_blocks(
+    features: Floats,
+    preset: AlignedPreset,
+    n_classes: int,
+    lengths: tuple[int, int],
+    random: np.random.RandomState,
+) -> tuple[Ints, Floats, Floats]:
+    """Return the first frames of blocks of similar poses, their kernel and their weights.
+
+    Raise ParameterError if the blocks cannot be cut into segments of these lengths and classes.
+    """
+    blocks = block_starts(features, preset, random)
+    check_room(len(blocks), n_classes, *lengths, preset.longest_block)
+    kernel = frame_kernel(features[blocks], preset.nearest_share)
+    return blocks, kernel, np.ones(len(blocks))
 
 
 def block_starts(features: Floats, preset: AlignedPreset, random: np.random.RandomState) -> Ints:

@@ -1,4 +1,4 @@
-"""The three methods of Barbič et al. 2004: PCA, probabilistic PCA and Gaussian mixtures.
+"""Segment by the three methods of Barbič et al. 2004: PCA, probabilistic PCA, Gaussian mixtures.
 
 The features are the quaternions of 14 joints in one row per frame
 (`compute_joint_quaternions`); lengths are the paper's frame numbers at 120 Hz,

@@ -1,4 +1,4 @@
-"""The methods that kineme is compared with, as presets.
+"""Define presets of the methods that kineme is compared with.
 
 All use the rotations of 14 joints at 120 Hz, as their authors did, if the body has these joints,
 and the usual features otherwise. ACA, HACA and GMM need the number of actions (``n_classes``).
@@ -8,6 +8,7 @@ Values are those of the papers; lengths that they give in frames at 120 Hz are i
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from typing import ClassVar, Self
 
 import numpy as np
@@ -79,6 +80,8 @@ class BaselinePreset(Preset):
     method: ClassVar[str] = "baselines"
     units: ClassVar[tuple[Unit, ...]] = ("any",)
     view: ClassVar[View] = "quaternions"
+    function: ClassVar[str]
+    """Module and name of the function that finds the segments of features with a preset."""
 
     unit: Unit = "any"
     working_fps: float = constant(
@@ -102,7 +105,11 @@ class BaselinePreset(Preset):
 
     def segments(self, features: Floats) -> Segments:
         """Return the segments in features (samples, dims)."""
-        raise NotImplementedError
+        # Imported by name when it runs: it loads compiled code and scikit-learn.
+        module, name = self.function.split(".")
+        find_segments = getattr(import_module(f"{__package__}.{module}"), name)
+        found: Segments = find_segments(features, self)
+        return found
 
     def for_signals(self) -> Self:
         """Return the preset at a rate that channels of sensors carry."""
@@ -157,19 +164,18 @@ class AlignedPreset(ClassCountPreset):
 class AcaPreset(AlignedPreset):
     """Aligned cluster analysis."""
 
+    function: ClassVar[str] = "aca.aca"
+
     shortest: int = constant("shortest segment", unit="blocks", limits=SOME, default=32)
     longest: int = constant("longest segment", unit="blocks", limits=SOME, default=60)
     starts: int = constant("initialisations, of which the best is kept", limits=SOME, default=1)
-
-    def segments(self, features: Floats) -> Segments:
-        from kineme_reproduction.baselines.aca import aca
-
-        return aca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class HacaPreset(AlignedPreset):
     """Hierarchical aligned cluster analysis."""
+
+    function: ClassVar[str] = "aca.haca"
 
     fine_lengths: Lengths = constant(
         "shortest and longest segment of the first level", unit="blocks", limits=SOME,
@@ -188,27 +194,21 @@ class HacaPreset(AlignedPreset):
         "initialisations of the second level, of which the best is kept", limits=SOME, default=10
     )
 
-    def segments(self, features: Floats) -> Segments:
-        from kineme_reproduction.baselines.aca import haca
-
-        return haca(features, self)
-
 
 @dataclass(frozen=True, kw_only=True)
 class GmmPreset(ClassCountPreset):
     """Gaussian mixture."""
 
+    function: ClassVar[str] = "barbic2004.gmm"
+
     variance_kept: float = constant(VARIANCE_KEPT, limits=SHARE, default=0.9)
-
-    def segments(self, features: Floats) -> Segments:
-        from kineme_reproduction.baselines.barbic2004 import gmm
-
-        return gmm(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PcaPreset(BaselinePreset):
     """Cuts where principal components cease to fit."""
+
+    function: ClassVar[str] = "barbic2004.pca"
 
     first: float = constant(
         "first part of a segment, which fixes the number of components", unit="s",
@@ -223,15 +223,12 @@ class PcaPreset(BaselinePreset):
         default=3.0,
     )  # fmt: skip
 
-    def segments(self, features: Floats) -> Segments:
-        from kineme_reproduction.baselines.barbic2004 import pca
-
-        return pca(features, self)
-
 
 @dataclass(frozen=True, kw_only=True)
 class PpcaPreset(BaselinePreset):
     """Cuts where a Gaussian ceases to fit."""
+
+    function: ClassVar[str] = "barbic2004.ppca"
 
     ahead: float = constant(
         "time ahead that is held against the Gaussian, and the first that it is fitted to",
@@ -246,11 +243,6 @@ class PpcaPreset(BaselinePreset):
         "share of the distance's range by which a peak rises above the valley before it",
         limits=SHARE, default=0.1,
     )  # fmt: skip
-
-    def segments(self, features: Floats) -> Segments:
-        from kineme_reproduction.baselines.barbic2004 import ppca
-
-        return ppca(features, self)
 
 
 @dataclass(frozen=True, kw_only=True)

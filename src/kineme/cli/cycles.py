@@ -31,7 +31,7 @@ from kineme.cycles import (
     write_table,
 )
 from kineme.cycles.channels import make_contact_channels
-from kineme.cycles.comparison import pair_sides
+from kineme.cycles.comparison import map_sides, pair_sides
 from kineme.cycles.events import OFF, STRIKE, normalize_event_name
 from kineme.cycles.export import SUFFIXES
 from kineme.cycles.measure import cycles as measure_cycles
@@ -448,8 +448,7 @@ def _choose_shown_channels(cycles: Cycles, *, ends: bool) -> list[str]:
     if len(set(cycles.units)) > 1:
         return [*cycles.channels[:MAX_CHANNELS]]
     values = _tabulate_measures(cycles, ends=ends)
-    pairs = pair_sides(cycles.channels)
-    opposite = dict(pairs) | {right: left for left, right in pairs}
+    opposite = map_sides(cycles.channels)
 
     def find_range(channel: str) -> float:
         means = [values[group, f"{channel}.range"][1] for group in cycles.groups]

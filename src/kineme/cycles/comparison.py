@@ -101,6 +101,12 @@ def pair_sides(channels: tuple[str, ...]) -> list[tuple[str, str]]:
     return pairs
 
 
+def map_sides(channels: tuple[str, ...]) -> dict[str, str]:
+    """Return the channel of the other side for each left and right channel."""
+    pairs = pair_sides(channels)
+    return dict(pairs) | {right: left for left, right in pairs}
+
+
 def is_right(channel: str) -> bool:
     """Return whether a channel is of the right side, judging by its name."""
     return re.search("(?<![a-z])(?i:right)|Right|_r$", channel) is not None

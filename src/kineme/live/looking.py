@@ -2,7 +2,8 @@
 
 The recent past is segmented like a file. A cluster takes the number of the cluster of the last look
 with which it shares most seconds. A cluster that shares none is compared with examples of older
-clusters, by the mean distance of their samples, and takes the number of the nearest one.
+clusters, by the energy distance of their samples, and takes the number of the nearest one, which
+may change until an activity of the cluster is final.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from kineme.live.events import Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
 from kineme.methods.kineme.tree import (
     MAX_PER_CLUSTER,
+    compute_energy_distances,
     compute_mean_distances,
     compute_median_distance,
     spread_samples,
@@ -87,7 +89,7 @@ def choose_options(options: SegmentOptions, *, signals: bool) -> SegmentOptions:
 
 @dataclass
 class RecentPast:
-    """The last frames of a stream, and examples of earlier clusters."""
+    """Hold the last frames of a stream, and examples of earlier clusters."""
 
     layout: Layout
     options: SegmentOptions  # how the recent past is segmented; see `choose_options`
@@ -149,8 +151,7 @@ class RecentPast:
         final = {row.cluster for row in finals.last_activities(self.start)}
         provisional = [local for local, number in given.items() if number not in final]
         if provisional and self.examples:
-            others = {number for number in given.values() if number in final}
-            matched = self._recognise(found, provisional, others)
+            matched = self._recognise(found, provisional, final.intersection(given.values()))
             for local in provisional:
                 if local not in matched and given[local] in matched.values():
                     highest = max(finals.highest, *given.values(), *matched.values())
@@ -206,6 +207,8 @@ class RecentPast:
     ) -> dict[int, int]:
         """Return the numbers of clusters that are near an example of an older cluster."""
         older = {number: rows for number, rows in self.examples.items() if number not in taken}
+        if not older:
+            return {}
         view, frames, unit, edge = self._compute_view(
             np.concatenate([*older.values(), self.values])
         )
@@ -228,9 +231,9 @@ class RecentPast:
         return _match_nearest(view, unit, examples, compared)
 
     def _compute_view(self, values: Floats) -> tuple[Float32s, Ints, float, float]:
-        """Return the view of frames, and the frame of each of its samples.
+        """Return the view of frames (samples, dims), and the frame of each sample.
 
-        Also return the typical distance of samples, and the number of samples in `EDGE_S`.
+        Also return the typical distance of samples near in time, and the samples in `EDGE_S`.
         """
         is_signals = self.layout.skeleton is None
         preset = self.options.resolved(signals=is_signals)
@@ -256,9 +259,10 @@ class RecentPast:
 def _match_nearest(
     view: Float32s, unit: float, examples: dict[int, Ints], clusters: dict[int, Ints]
 ) -> dict[int, int]:
-    """Return the number of the example for each cluster that is near one, the nearest pairs first.
+    """Return the number of the nearest example for each cluster that is near enough to one.
 
-    Both are given as samples of the view.
+    Examples by number, and clusters, are samples of the view. The nearest pairs are matched first,
+    so that each number is given once.
     """
     numbers = [number for number, samples in examples.items() if len(samples)]
     local = [cluster for cluster, samples in clusters.items() if len(samples)]
@@ -266,13 +270,11 @@ def _match_nearest(
         return {}
     groups = [*(clusters[k] for k in local), *(examples[k] for k in numbers)]
     means = compute_mean_distances(view, groups) / unit
-    within = np.diag(means)
-    # Energy distance: mean distance between two groups less the mean within them.
-    distances = (means - np.add.outer(within, within) / 2)[: len(local), len(local) :]
+    distances = compute_energy_distances(means)[: len(local), len(local) :]
     matched: dict[int, int] = {}
     while distances.min() <= SAME_MOVEMENT:
         row, column = np.unravel_index(distances.argmin(), distances.shape)
         matched[local[row]] = numbers[column]
-        # A number is given once, and a cluster has one number.
+        # Neither is matched again.
         distances[row], distances[:, column] = np.inf, np.inf
     return matched

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats
 from kineme.cycles.channels import Channel, channels_of
-from kineme.cycles.comparison import compare_curves, pair_sides
+from kineme.cycles.comparison import compare_curves, map_sides
 from kineme.cycles.measure import cycles as measure_cycles
 from kineme.cycles.measure import mark_excluded, measure_other_channels
 from kineme.cycles.table import BY_HAND, Columns, Cycles
@@ -85,8 +85,7 @@ class CycleCurves:
                 self._default_channels = [
                     channel.name for channel in channels_of(recording)[:MAX_DEFAULT_CHANNELS]
                 ]
-                pairs = pair_sides(tuple(channel.name for channel in all_channels))
-                opposite = dict(pairs) | {right: left for left, right in pairs}
+                opposite = map_sides(tuple(channel.name for channel in all_channels))
                 # Those measured by default first; the sort is stable and keeps the rest in order.
                 for channel in sorted(
                     all_channels, key=lambda one: one.name not in self._default_channels

@@ -114,7 +114,7 @@ STOP = 60 + PERIOD * 8
 
 @pytest.mark.parametrize("late", [-12, -6, 0, 6, 12])
 def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) -> None:
-    """The ends do not depend on the borders of the activity."""
+    """Check that ends do not depend on the borders of the activity."""
     for found in (
         fit_alone(shaken(1), 60 + late, STOP - late, CUTS),
         fit_alone(shaken(2), 60 + late, STOP + late, CUTS),
@@ -124,7 +124,7 @@ def test_the_first_and_the_last_repetition_are_as_long_as_the_others(late: int) 
 
 
 def test_a_part_of_a_repetition_stays_in_the_activity_and_is_no_repetition() -> None:
-    """The movement continues for twelve frames beyond both ends."""
+    """Let the movement continue for twelve frames beyond both ends."""
     more = make_swings(10, period=PERIOD / 30)[PERIOD - 12 : -PERIOD + 12]
     rows = np.concatenate([AWAY, more, AWAY])
     rows += np.random.default_rng(4).normal(0, 0.02, rows.shape)

@@ -1,4 +1,4 @@
-"""The whole chain from features to clusters: invariances, any constants, and mirrored cuts."""
+"""Test the whole chain from features to clusters: invariances, any constants, and mirrored cuts."""
 
 from __future__ import annotations
 

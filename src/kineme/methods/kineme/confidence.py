@@ -79,7 +79,7 @@ class Evidence:
     rows: NDArray[np.float32]
     """Features (frames, dims) at the working rate."""
     view: NDArray[np.float32]
-    """The chosen view (samples, dims), at ``preset.rate``."""
+    """Chosen view (samples, dims), at ``preset.rate``."""
     segments: Segments
     answers: Sequence[Answers]
     """One for each part of the recording."""

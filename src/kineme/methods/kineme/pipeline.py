@@ -197,7 +197,7 @@ class Part(NamedTuple):
     scale: int
     """Number of the chosen view."""
     view: Rows
-    """The chosen view, (samples, dims)."""
+    """Chosen view, (samples, dims)."""
     level: Level
     answers: Answers
     """Clusters that all views find."""

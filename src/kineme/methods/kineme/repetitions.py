@@ -90,7 +90,7 @@ class Movement:
     poses: Floats
     """Smoothed poses (frames, dims), centred."""
     middle: Floats
-    """The subtracted mean, in which each pose is weighted by its speed."""
+    """Subtracted mean pose: the mean of poses weighted by their speed."""
     path: Floats
     """Length of the path up to each frame, and to the end, (frames + 1,)."""
     variance: float

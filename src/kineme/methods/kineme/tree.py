@@ -197,6 +197,18 @@ def compute_mean_distances(features: Rows, groups: Sequence[Samples]) -> Floats:
     return np.triu(means) + np.triu(means, 1).T
 
 
+def compute_energy_distances(means: Floats) -> Floats:
+    """Return the mean distances of groups (groups, groups), less the means within both groups.
+
+    Examples
+    --------
+    >>> compute_energy_distances(np.array([[1.0, 4.0], [4.0, 3.0]])).tolist()
+    [[0.0, 2.0], [2.0, 0.0]]
+    """
+    within = np.diag(means)
+    return np.asarray(means - np.add.outer(within, within) / 2)
+
+
 def list_levels(borders: Samples, sums: Floats) -> list[Samples]:
     """Return the borders of each level, as indices of `borders`, from one segment to all.
 
@@ -407,9 +419,7 @@ def match_clusters_across_parts(
     numbers, owner = np.arange(len(means)), np.arange(len(means))
     same_part = part_of[:, None] == part_of  # includes each cluster with itself
     while True:
-        within = np.diag(means)
-        # Energy distance: mean distance between two clusters less the mean within them.
-        distances = means - np.add.outer(within, within) / 2
+        distances = compute_energy_distances(means)
         gaps_in_part = np.where(same_part, distances, np.inf)
         np.fill_diagonal(gaps_in_part, np.inf)
         nearest = gaps_in_part.min(axis=1)
