@@ -54,12 +54,16 @@ def no_arrays(folder: Path) -> None:
         path.write_bytes(b"nothing")
 
 
-def local(change: Callable[[pa.Table], pa.Table]) -> Damage:
+def stored(name: str, change: Callable[[pa.Table], pa.Table]) -> Damage:
     def damage(folder: Path) -> None:
-        (path,) = (folder / "tables").glob("*/local_clusters.parquet")
+        (path,) = (folder / "tables").glob(f"*/{name}.parquet")
         parquet.write_table(change(parquet.ParquetFile(path).read()), path)
 
     return damage
+
+
+def local(change: Callable[[pa.Table], pa.Table]) -> Damage:
+    return stored("local_clusters", change)
 
 
 def with_column(name: str, values: Callable[[int], Any]) -> Callable[[pa.Table], pa.Table]:
@@ -92,6 +96,7 @@ DAMAGES: dict[str, Damage] = {
     "constants that are texts": head(clustering={"unsure": "0.1"}),
     "a constant that is missing": head(clustering={}),
     "clusters of nobody": local(with_column("recording", lambda n: pa.array(["nobody"] * n))),
+    "a recording without segments": stored("segments", lambda table: table.slice(0, 1)),
     "reasons that are numbers": head(failed={"a": 1}),
     "tables elsewhere": head(tables="../.."),
     "a number no column holds": head(following=1 << 63),
