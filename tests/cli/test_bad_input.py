@@ -190,6 +190,15 @@ def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path) -> None:
     assert done.stderr == "error: output cannot be written: No space left on device\n"
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="there such names are missing files")
+@pytest.mark.parametrize("command", ["segment", "library show", "library build --into lib"])
+def test_a_name_that_is_too_long_is_one_sentence(kineme_process, command: str) -> None:
+    done = kineme_process(*command.split(), "a" * 300, code=1)
+    assert done.stderr.startswith("error: " + "a" * 300)
+    assert done.stderr.endswith(": File name too long\n")
+    assert len(done.stderr.splitlines()) == 1
+
+
 def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:
     values = np.random.default_rng(0).normal(size=(40, 12_000))
     tracemalloc.start()
