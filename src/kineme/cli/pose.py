@@ -12,7 +12,7 @@ from kineme._util.checks import format_count
 from kineme.cli.files import Batch, Files, Recursive, make_parent_folder
 from kineme.cli.help import METHOD, option, output_option
 from kineme.cli.options import Json, Quiet
-from kineme.cli.terminal import print_error
+from kineme.cli.terminal import exit_on_error, print_error
 from kineme.errors import ParameterError, ReadError
 
 
@@ -61,10 +61,11 @@ def pose(
     from kineme.formats.registry import is_video
     from kineme.pose.estimators import choose_estimator
 
-    try:
-        choose_estimator(estimator)
-    except ParameterError as error:
-        raise typer.BadParameter(str(error), param_hint="--estimator") from error
+    with exit_on_error():
+        try:
+            choose_estimator(estimator)
+        except ParameterError as error:
+            raise typer.BadParameter(str(error), param_hint="--estimator") from error
     batch = Batch(files, recursive=recursive, quiet=quiet)
     batch.paths = [path for path in batch.paths if is_video(path) or path in files]
     if not batch.paths:
