@@ -128,7 +128,7 @@ def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (("cmu86", "-o", "scores.xlsx"), 1, ".json or .csv"),
+        (("cmu86", "-o", "scores.xlsx"), 2, ".json, .csv"),
         (("cmu86", "-o", "nowhere/scores.csv"), 1, "does not exist"),
         (("cmu86", "--against", "labels.csv"), 2, "has its own annotations"),
         (("found.csv",), 2, "--against LABELS is needed"),

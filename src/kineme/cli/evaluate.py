@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from kineme.cli.files import check_suffix
 from kineme.cli.help import METHOD, OUTPUT, option, output_option
 from kineme.cli.options import SET, Constants, Quiet, parse_constants, split_names
 from kineme.cli.terminal import exit_on_error
@@ -182,13 +183,12 @@ def evaluate(
 
 
 def _check_output(output: Path | None) -> None:
-    """Raise WriteError for an output that cannot be written, before any work is done."""
+    """Raise an error for an output that cannot be written, before any work is done."""
     if output is None:
         return
     from kineme.evaluation.score import OUTPUTS
 
-    if output.suffix.lower() not in OUTPUTS:
-        raise WriteError(output, f"scores are written as {' or '.join(OUTPUTS)}")
+    check_suffix("--output", output, OUTPUTS)
     if not output.parent.is_dir():
         raise WriteError(output, f"the folder {output.parent} does not exist")
 

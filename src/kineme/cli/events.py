@@ -10,18 +10,18 @@ import typer
 from rich.text import Text
 
 from kineme._util.checks import format_count
-from kineme.cli.files import Batch, Files, Recursive
+from kineme.cli.files import Batch, Files, Recursive, check_suffix
 from kineme.cli.help import OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, Quiet, add_options
 from kineme.cli.tables import make_table, show_written
 from kineme.cli.terminal import Console
 from kineme.cycles.events import Events, foot_events, strides
 from kineme.cycles.events import gait as gait_of
-from kineme.cycles.export import write_table
+from kineme.cycles.export import TABLE_SUFFIXES, write_table
 from kineme.cycles.table import Columns
 from kineme.formats import read
 from kineme.formats.options import ReadOptions
-from kineme.labels import write_segments
+from kineme.labels import list_written_suffixes, write_segments
 from kineme.labels.c3d_events import require_c3d, write_events
 
 FEET = "Feet"
@@ -77,6 +77,11 @@ def events(
     gaits = batch.targets("--gait", gait, ".csv")
     spans = batch.targets("--labels", labels, ".csv")
     copies = batch.targets("--c3d", c3d, ".c3d")
+    for table, measures, span, copy in zip(tables, gaits, spans, copies, strict=True):
+        check_suffix("--output", table, TABLE_SUFFIXES)
+        check_suffix("--gait", measures, TABLE_SUFFIXES)
+        check_suffix("--labels", span, list_written_suffixes())
+        check_suffix("--c3d", copy, (".c3d",))
     if c3d is not None and read_options.fps:
         raise typer.BadParameter(
             "a C3D has its own frame rate: leave out --fps", param_hint="--c3d"

@@ -16,7 +16,7 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Annotated
@@ -317,9 +317,17 @@ def check_suffixes(
     """Raise typer.BadParameter for results whose suffix names no format that can be written."""
     from kineme.labels import list_written_suffixes
 
-    for path, suffixes in ((table, list_written_suffixes()), (picture, PICTURES), (page, PAGES)):
-        if path is not None and path.suffix.lower() not in suffixes:
-            raise typer.BadParameter(f"{path}: the suffix must be one of {', '.join(suffixes)}")
+    check_suffix("", table, list_written_suffixes())
+    check_suffix("", picture, PICTURES)
+    check_suffix("", page, PAGES)
+
+
+def check_suffix(option: str, path: Path | None, suffixes: Collection[str]) -> None:
+    """Raise typer.BadParameter, which names the option, for a path with another suffix."""
+    if path is not None and path.suffix.lower() not in suffixes:
+        raise typer.BadParameter(
+            f"{path}: the suffix must be one of {', '.join(suffixes)}", param_hint=option or None
+        )
 
 
 def make_parent_folder(path: Path) -> None:

@@ -14,6 +14,7 @@ from kineme.cli.files import (
     Files,
     Recursive,
     SegmentTable,
+    check_suffix,
     check_target_folder,
     check_writable,
 )
@@ -69,6 +70,7 @@ def graph(
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments, read_options.person or "")
+    check_suffix("--output", output, (".json",))
     with exit_on_error(output):
         check_target_folder(output)
         check_writable(output, plot)

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from kineme._util.checks import format_count
-from kineme.cli.files import Batch, Files, Recursive, make_parent_folder
+from kineme.cli.files import Batch, Files, Recursive, check_suffix, make_parent_folder
 from kineme.cli.help import METHOD, option, output_option
 from kineme.cli.options import Json, Quiet
 from kineme.cli.terminal import exit_on_error, print_error
@@ -70,7 +70,10 @@ def pose(
     batch.paths = [path for path in batch.paths if is_video(path) or path in files]
     if not batch.paths:
         print_error(f"there is no video in {', '.join(map(str, files))}")
-    for path, table in zip(batch.paths, batch.targets("--output", output, ".parquet"), strict=True):
+    tables = batch.targets("--output", output, ".parquet")
+    for table in tables:
+        check_suffix("--output", table, (".parquet",))
+    for path, table in zip(batch.paths, tables, strict=True):
         with batch.catch_errors(path):
             if table is not None:
                 make_parent_folder(table)
