@@ -157,6 +157,13 @@ def test_two_subjects(tmp_path: Path) -> None:
         choose_person("take.c3d", ["Ann", "ANN"], "ann")
 
 
+def test_the_name_of_a_single_subject_is_checked(tmp_path: Path) -> None:
+    data = to_c3d(POINTS, [f"Ann:{name}" for name in PLUG_IN_GAIT])
+    assert read(tmp_path, "take.c3d", data, person="ann").provenance.person == "Ann"
+    with pytest.raises(SeveralPeopleError, match="no person 'Bob': choose from Ann"):
+        read(tmp_path, "take.c3d", data, person="Bob")
+
+
 def test_events_of_two_subjects_stay_apart(tmp_path: Path) -> None:
     labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT]
     more = {

@@ -75,9 +75,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
         raise content.error("it states no frameRate: give fps= (--fps)")
     left_out = [name for name in subject.segments if name not in PARENTS]
     notes = [f"segments left out: {', '.join(left_out)}"] if left_out else []
-    provenance = content.provenance("MVNX", notes)
-    if len(people) > 1:
-        provenance = provenance.of_person(person, names_of_people)
+    provenance = content.provenance("MVNX", notes).of_person(person, names_of_people)
     if not subject.values["orientation"]:
         positions = to_metres(options.unit or "m") * turn_upright(positions, options.up or "z")
         # Offsets come from the frame with the largest height.
