@@ -61,16 +61,10 @@ class FileContent:
 
     @property
     def text(self) -> str:
-        """Return the bytes as text: UTF-8 or UTF-16, else Windows-1252.
-
-        Bytes that fit none of these are replaced; they occur in comments and names only.
-        """
+        """Return the bytes as text: UTF-16 if they start with its mark, else by `decode_text`."""
         if self.is_utf16:
             return self.data.decode("utf-16", errors="replace")
-        try:
-            return self.data.decode("utf-8").removeprefix("\ufeff")
-        except UnicodeDecodeError:
-            return self.data.decode("cp1252", errors="replace")
+        return decode_text(self.data).removeprefix("\ufeff")
 
     @property
     def is_utf16(self) -> bool:
@@ -132,6 +126,17 @@ class FileHead(FileContent):
     @property
     def memory_limit(self) -> int:
         return max(MIN_MEMORY, MAX_EXPANSION * self.path.stat().st_size)
+
+
+def decode_text(data: bytes) -> str:
+    """Return bytes as text: UTF-8, else Windows-1252.
+
+    Bytes that fit neither are replaced; they occur in comments and names only.
+    """
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
 
 
 def load_head(path: str | PathLike[str]) -> FileHead:
