@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
+from typer.testing import CliRunner
 
 import kineme
 from growth import measure_peak
+from kineme.cli.app import app
 from kineme.cycles import landmarks
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
@@ -134,6 +136,20 @@ def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
     names = read(tmp_path, "take.c3d", to_c3d(points, labels, more=more)).skeleton.names
     assert {"C7", "C7b"} <= set(names)
     assert not {"LKneeAngles", "*12", "C_101", "Unlabeled 7"} & set(names)
+
+
+def test_contacts_on_force_plates_count_frames_of_points(tmp_path: Path) -> None:
+    force = np.zeros((600, 2))
+    force[200:300, 0], force[250:450, 1] = -700, -700
+    data = to_c3d(POINTS, PLUG_IN_GAIT, real=True, analog=force.reshape(60, 10, 2))
+    (tmp_path / "take.c3d").write_bytes(data)
+    options = ["--columns", "*", "--left", "emg0", "--right", "emg1"]
+    outputs = ["-o", str(tmp_path / "events.csv"), "--labels", str(tmp_path / "labels.csv")]
+    done = CliRunner().invoke(app, ["events", str(tmp_path / "take.c3d"), *options, *outputs])
+    assert done.exit_code == 0, done.output
+    frames = np.loadtxt(tmp_path / "events.csv", delimiter=",", skiprows=1, usecols=1)
+    assert frames == pytest.approx([20, 25, 30, 45], abs=0.2)
+    assert kineme.read_segments(tmp_path / "labels.csv").n_frames == 60  # as the motion
 
 
 def test_two_subjects(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan
 from pathlib import Path
 from typing import Annotated
@@ -20,9 +21,12 @@ from kineme.cycles.events import gait as gait_of
 from kineme.cycles.export import TABLE_SUFFIXES, write_table
 from kineme.cycles.table import Columns
 from kineme.formats import read
+from kineme.formats.files import load
+from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.formats.options import ReadOptions
 from kineme.labels import list_written_suffixes, write_segments
 from kineme.labels.c3d_events import require_c3d, write_events
+from kineme.recordings import Motion, Signals
 
 FEET = "Feet"
 
@@ -95,6 +99,7 @@ def events(
             recording = read(path, **vars(options))
             contacts = foot_events(recording, left=left, right=right)
             measures = gait_of(contacts, recording)
+            contacts = _count_file_frames(contacts, recording, path, options)
         for target in filter(None, targets):
             target.parent.mkdir(exist_ok=True)
         table, measured, span, copy = targets
@@ -119,6 +124,16 @@ def events(
     for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
         batch.run_each_person(path, read_options, work, *targets)
     batch.exit()
+
+
+def _count_file_frames(
+    events: Events, recording: Motion | Signals, path: Path, options: ReadOptions
+) -> Events:
+    """Return events of analog channels of a C3D with the frames of its points."""
+    if recording.provenance.format != "C3D" or isinstance(recording, Motion) or options.fps:
+        return events
+    file = parse_c3d(load(path))
+    return replace(events, n_frames=len(file.points), fps=file.rate) if file.labels else events
 
 
 def _show(path: Path, events: Events, gait: Columns, written: list[Path | None], note: str) -> None:
