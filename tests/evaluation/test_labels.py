@@ -242,7 +242,9 @@ def test_a_truth_without_actions_is_one_clear_error(labels):
         Truth(labels, [], [], [], 60, 10.0)
 
 
-@pytest.mark.parametrize("borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5]])
+@pytest.mark.parametrize(
+    "borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5], [[0, 5], [5, 9]], [0, float("nan"), 9], 5]
+)
 def test_intervals_must_tile_from_0(borders):
     with pytest.raises(ParameterError):
-        Labelling(borders, tuple("abc")[: len(borders) - 1], 10.0)
+        Labelling(borders, tuple("abc")[: np.size(borders) - 1], 10.0)
