@@ -49,6 +49,16 @@ _DRAFT = re.compile(r"\.kineme-[0-9a-f]{12}(\.\w+)?")
 _cleaned: set[Path] = set()  # folders whose abandoned drafts this process has removed
 
 
+def is_remote(path: AnyPath) -> bool:
+    """Return whether a path is a URL of universal_pathlib."""
+    return hasattr(path, "protocol")
+
+
+def make_absolute(path: Path) -> Path:
+    """Return the absolute path without resolving links, so that given names are kept."""
+    return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
+
+
 @contextmanager
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Provide a draft to write to, which replaces ``path`` when the block ends.

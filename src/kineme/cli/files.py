@@ -23,7 +23,14 @@ from typing import Annotated
 
 import typer
 
-from kineme._util.files import CORRECTED, PAGES, PICTURES, add_person, make_person_suffix
+from kineme._util.files import (
+    CORRECTED,
+    PAGES,
+    PICTURES,
+    add_person,
+    make_absolute,
+    make_person_suffix,
+)
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.options import expand_read_options
 from kineme.cli.terminal import format_line, print_error, print_skipped, show_progress
@@ -339,11 +346,6 @@ def make_parent_folder(path: Path) -> None:
         raise WriteError(path, reason) from error
     if not os.access(path.parent, os.W_OK):
         raise WriteError(path, f"no permission to write to the folder {path.parent}")
-
-
-def make_absolute(path: Path) -> Path:
-    """Return the absolute path without resolving links, so that given names are kept."""
-    return Path(os.path.abspath(path))  # noqa: PTH100
 
 
 def _is_folder(path: Path) -> bool:

@@ -26,7 +26,7 @@ from threadpoolctl import threadpool_limits
 
 from kineme._util.arrays import Ints
 from kineme._util.checks import is_text
-from kineme._util.files import AnyPath, refuse_pipe
+from kineme._util.files import AnyPath, is_remote, refuse_pipe
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, ReadError, WriteError
 from kineme.formats import read_quietly
@@ -47,7 +47,6 @@ from kineme.library.storage.layout import (
     as_array,
     as_column,
     import_arrow,
-    is_remote,
     read_json,
     write_json,
 )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -14,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from kineme._util.files import AnyPath, OwnedFolder, refuse_pipe
+from kineme._util.files import AnyPath, OwnedFolder, is_remote, make_absolute, refuse_pipe
 from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import FileError, ParameterError, ReadError, WriteError
@@ -28,7 +27,6 @@ from kineme.library.storage.layout import (
     KEY_LENGTH,
     TABLES,
     is_inside,
-    is_remote,
     make_path,
     read_head,
     read_json,
@@ -169,11 +167,6 @@ def as_paths(paths: AnyPath | Iterable[AnyPath]) -> list[Path]:
     if not isinstance(paths, Iterable):
         raise ParameterError(f"build takes paths of recordings or folders, not {paths!r:.60}")
     return [make_path(path, "build") for path in paths]
-
-
-def make_absolute(path: Path) -> Path:
-    """Return the absolute path without following links."""
-    return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
 
 
 def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.checks import check_path, is_number, require_extra
-from kineme._util.files import atomic_write, refuse_link, refuse_pipe
+from kineme._util.files import atomic_write, is_remote, refuse_link, refuse_pipe
 from kineme._util.json import load_json
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
 
@@ -82,11 +82,6 @@ def make_path(path: str | PathLike[str], caller: str = "make_path") -> Path:
     except (ImportError, ValueError) as error:  # e.g. "Install s3fs to access S3"
         raise ParameterError(f"{path:.200} cannot be reached: {error}") from error
     return cast("Path", remote)
-
-
-def is_remote(path: str | PathLike[str]) -> bool:
-    """Return whether a path is a URL of universal_pathlib."""
-    return hasattr(path, "protocol")
 
 
 def is_inside(path: Path, folder: Path) -> bool:
