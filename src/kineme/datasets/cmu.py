@@ -154,8 +154,7 @@ def _read_content(path: Path, folder: Path) -> int | None:
 
         read_asf(load(path))
     else:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KinemeWarning)
+        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
             read_actions(path)
     return None
 

@@ -164,8 +164,7 @@ def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
 
     Raise ReadError if the file or the trial does not exist.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KinemeWarning)
+    with warnings.catch_warnings(action="ignore", category=KinemeWarning):
         trials = read_trials(path, fps=fps)
     if name not in trials:
         names = ", ".join(trials)
