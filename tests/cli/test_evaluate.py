@@ -15,6 +15,7 @@ import kineme as package
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.evaluation import folder
 from kineme.evaluation.score import scores as all_scores
+from plugins import install_package
 
 REPRODUCTION = Path(__file__).parents[2] / "reproduction"
 
@@ -33,15 +34,12 @@ def benchmark(tmp_path_factory, monkeypatch) -> None:
     """The part of the package that reproduces papers, as an installer leaves it."""
     project = tomllib.loads((REPRODUCTION / "pyproject.toml").read_text())["project"]
     site = tmp_path_factory.mktemp("site")
-    info = site / "kineme_reproduction-0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: 0\n")
     lines = [
         line
         for group, points in project["entry-points"].items()
         for line in (f"[{group}]", *(f"{name} = {place}" for name, place in points.items()))
     ]
-    (info / "entry_points.txt").write_text("\n".join(lines))
+    install_package(site, "kineme_reproduction", "\n".join(lines))
     monkeypatch.syspath_prepend(str(site))
 
 
