@@ -109,6 +109,7 @@ def test_a_place_that_cannot_be_written(
         ("events", "a.bvh", "--labels", "steps.docx"),
         ("library", "export", "lib", "-o", "segments.xlsx"),
         ("graph", "a.bvh", "-o", "graph.csv"),
+        ("synthesize", "graph.json", "--actions", "walk", "-o", "new.docx"),
         ("live", "--replay", "a.bvh", "--speed", "-1"),
         ("convert", "a.bvh", "b.bvh", "folder"),
     ],
