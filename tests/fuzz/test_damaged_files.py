@@ -146,7 +146,8 @@ def read_tables(path: Path) -> None:
 def search_library(path: Path) -> None:
     library = open_library(path)
     library.unsure()
-    library.search(cluster=library.clusters()[0].cluster, top=5)
+    for cluster in library.clusters()[:1]:  # a damaged table may have none
+        library.search(cluster=cluster.cluster, top=5)
 
 
 def build_library(path: Path) -> None:
