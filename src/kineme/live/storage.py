@@ -147,8 +147,11 @@ class Journal:
         try:
             self._file = self.path.open("x", encoding="utf-8", newline="")
         except FileExistsError as error:
-            advice = f"is from a run that ended early: kineme live --recover {self.path}"
-            raise WriteError(self.path, advice) from error
+            reason = (
+                "exists already: give another name, or if its run has ended, recover it with "
+                f"kineme live --recover {self.path}"
+            )
+            raise WriteError(self.path, reason) from error
         except OSError as error:
             raise WriteError(self.path, f"cannot be written: {error.strerror}") from error
         self._writer = csv.writer(self._file)
