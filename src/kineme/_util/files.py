@@ -358,10 +358,10 @@ def _open_draft(draft: Path, *, create: bool = True) -> int:
     return os.open(draft, how, 0o666)
 
 
-def is_locked(draft: Path) -> bool:
-    """Return whether another process is still writing a draft.
+def is_locked(draft: Path, *, if_unknown: bool = True) -> bool:
+    """Return whether a file or folder is still being written, see `lock_shared`.
 
-    Also True if files cannot be locked, so that such drafts are never removed.
+    ``if_unknown`` is the answer where files cannot be locked: drafts are never removed there.
     """
     if sys.platform == "win32":
         return False
@@ -372,8 +372,10 @@ def is_locked(draft: Path) -> bool:
     try:
         # A writer holds a shared lock, so an exclusive one fails.
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
+    except BlockingIOError:
         return True
+    except OSError:
+        return if_unknown
     finally:
         os.close(file)
     return False

@@ -41,7 +41,7 @@ def evaluate(
         option(
             RESULT,
             "The truth: a table with start_s, stop_s, label; a .txt with one label per "
-            "frame; a segment table; annotations.json or mocap.txt.",
+            "frame; or a segment table.",
             metavar="LABELS",
         ),
     ] = None,
@@ -102,8 +102,7 @@ def evaluate(
         list[str] | None,
         option(
             BENCH,
-            "Recording of the benchmark, such as 86_01, by default all available; for one "
-            "result, the recording whose annotations to use.",
+            "Recording of the benchmark, such as 86_01; by default all available.",
             metavar="NAME",
         ),
     ] = None,
@@ -112,7 +111,7 @@ def evaluate(
         option(
             BENCH,
             "Folder of its recordings and annotations; by default KINEME_DATA, then the "
-            "files that `kineme data cmu 86` fetched.",
+            "files that `kineme-cmu 86` downloaded.",
             metavar="FOLDER",
         ),
     ] = None,
@@ -172,7 +171,7 @@ def evaluate(
             from kineme.cli.scoring import score_file
 
             silent = quiet or as_json
-            records = score_file(Path(what), against, fps, trial, quiet=silent)
+            records = score_file(Path(what), against, fps, quiet=silent)
         else:
             if against is not None:
                 raise typer.BadParameter(

@@ -46,7 +46,7 @@ def events(
         Path | None,
         option(
             OUTPUT,
-            "Write means of strides, stands, swings and steps: .csv or .parquet, and each "
+            "Write means of strides, stances, swings and steps: .csv or .parquet, and each "
             "stride next to it (.strides.csv).",
         ),
     ] = None,
@@ -92,34 +92,36 @@ def events(
         )
 
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
+        table_path, gait_path, label_path, c3d_path = targets
         with batch.progress(path) as stage:
             stage("reading")
-            if targets[3] is not None:
+            if c3d_path is not None:
                 require_c3d(path)
             recording = read(path, **vars(options))
             contacts = foot_events(recording, left=left, right=right)
             measures = gait_of(contacts, recording)
             contacts = _count_file_frames(contacts, recording, path, options)
-        for target in filter(None, targets):
+        written = [target for target in targets if target is not None]
+        for target in written:
             target.parent.mkdir(exist_ok=True)
-        table, measured, span, copy = targets
         note = ""
-        if table is not None:
-            write_table(contacts.columns(), table)
-        if measured is not None:
-            write_table(measures, measured)
-            stride_path = measured.with_suffix(f".strides{measured.suffix}")
+        if table_path is not None:
+            write_table(contacts.columns(), table_path)
+        if gait_path is not None:
+            write_table(measures, gait_path)
+            stride_path = gait_path.with_suffix(f".strides{gait_path.suffix}")
             write_table(strides(contacts, recording), stride_path)
-            targets = (*targets, stride_path)
-        if span is not None:
-            write_segments(contacts.segmentation(), span)
-        if copy is not None:
-            several = len(recording.provenance.people) > 1
-            subject = recording.provenance.person if several else None
-            n_added = write_events(path, copy, contacts.times, contacts.names, subject=subject)
+            written.append(stride_path)
+        if label_path is not None:
+            write_segments(contacts.segmentation(), label_path)
+        if c3d_path is not None:
+            # In a file of several people, an event names the person it belongs to.
+            source = recording.provenance
+            subject = source.person if len(source.people) > 1 else None
+            n_added = write_events(path, c3d_path, contacts.times, contacts.names, subject=subject)
             note = f"{format_count(n_added, 'event')} added to those in the file"
         if not quiet:
-            _show(path, contacts, measures, [*targets], note)
+            _show(path, contacts, measures, written, note)
 
     for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
         batch.run_each_person(path, read_options, work, *targets)
@@ -136,7 +138,7 @@ def _count_file_frames(
     return replace(events, n_frames=len(file.points), fps=file.rate) if file.labels else events
 
 
-def _show(path: Path, events: Events, gait: Columns, written: list[Path | None], note: str) -> None:
+def _show(path: Path, events: Events, gait: Columns, written: list[Path], note: str) -> None:
     """Print the number of events, the gait measures, and the note if there is one."""
     console = Console(highlight=False)
     console.print(Text.assemble((path.name, "bold"), f"  {format_count(len(events), 'event')}"))

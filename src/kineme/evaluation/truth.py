@@ -240,9 +240,10 @@ class Truth:
             frames = np.asarray(getattr(self, name), np.int64)
             object.__setattr__(self, name, frames)
             if frames.shape != (len(self.labels) - 1,):
+                shape = " x ".join(map(str, frames.shape))
                 raise ParameterError(
-                    f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
-                    f"them, not {frames.size} ({name})"
+                    f"{name} has {shape} borders, but {len(self.labels)} actions have "
+                    f"{len(self.labels) - 1} between them"
                 )
         # Report the first border whose mean is outside the span.
         for i in np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))[:1]:

@@ -349,14 +349,15 @@ def columns_to_motion(
     Raise ReadError if there are no joints, columns differ in length, or the rate is unknown.
     """
     joints = _find_joints(content, columns)
-    use_visibility = options.confidence is not None
+    # Columns of visibility state whether a point is occluded: they count only on request.
     names, positions, confidence = _read_positions(
-        content, columns, joints, visibility=use_visibility
+        content, columns, joints, visibility=options.confidence is not None
     )
     limit = limit if options.confidence is None else options.confidence
-    positions[confidence < limit] = np.nan  # these become gaps
+    is_unsure = confidence < limit
+    positions[is_unsure] = np.nan  # these become gaps
     is_flat = all(len(axes) == 2 for axes in joints.values())
-    n_unsure = int((confidence < limit).sum())
+    n_unsure = int(is_unsure.sum())
     timing = find_table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
     positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)

@@ -112,7 +112,7 @@ def run_query(tables: OpenTables, sql: str) -> Any:
         try:
             relation = connection.sql(sql)
             if relation is None:
-                raise ParameterError("this query returns no rows: begin it with select")
+                raise ParameterError("this statement is not a query: begin it with select")
             return relation.to_arrow_table()
         except duckdb.Error as error:
             raise ParameterError(" ".join(str(error).split())[:400]) from error

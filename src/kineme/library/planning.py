@@ -68,14 +68,12 @@ class Plan:
     def options_digest(self) -> str:
         """Return a digest of the version and all options and constants that affect results.
 
-        Raise ParameterError for options that a library cannot store.
+        Raise ParameterError for options that are invalid or that a library cannot store.
         """
-        self.segment_options.resolved()
-        presets = []
-        for signals in (False, True):
-            with suppress(ParameterError):  # constants that only the other preset has
-                chosen = self.segment_options.resolved(signals=signals)
-                presets.append([chosen.name, dict(chosen.parameters())])
+        chosen = [self.segment_options.resolved()]
+        with suppress(ParameterError):  # a constant that the preset for signals lacks
+            chosen.append(self.segment_options.resolved(signals=True))
+        presets = [[preset.name, dict(preset.parameters())] for preset in chosen]
         options = [options_to_json(each) for each in (self.read_options, self.segment_options)]
         content = [ANALYSIS, __version__, presets, options]
         return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

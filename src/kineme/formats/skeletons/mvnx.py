@@ -143,7 +143,7 @@ class _SubjectParser(NoEntities):
         try:
             self.people[-1].values[name].append(np.array(words, np.float64))
         except ValueError:
-            raise self.content.error(f"a frame has a {name} that is not a number") from None
+            raise self.content.error(f"the {name} of a frame is not a number") from None
 
 
 def _parse_subjects(content: FileContent) -> list[Subject]:

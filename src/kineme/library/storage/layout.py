@@ -49,7 +49,7 @@ MOST_CLUSTERS = 1 << 62
 _KINDS = {
     "clustering": dict,
     "failed": dict,
-    "following": int,
+    "following": int,  # number of the next new cluster
     "read_options": dict,
     "segment_options": dict,
     "sources": list,
@@ -156,13 +156,13 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
             f"is of the schema {head.get('schema')!r:.40}, but this version of kineme reads "
             f"{SCHEMA}: build the library again in another folder",
         )
-    if not _is_complete(head):
+    if not _is_valid(head):
         raise ReadError(path, "is damaged: its content is not valid; build the library again")
     return head
 
 
-def _is_complete(head: Mapping[str, Any]) -> bool:
-    """Return whether all entries of a head are present and valid."""
+def _is_valid(head: Mapping[str, Any]) -> bool:
+    """Return whether a head has all entries of `_KINDS` with valid values."""
     if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
         return False
     constants = head["clustering"]

@@ -137,14 +137,15 @@ export class EditedRecording {
     this.announcedRevision = revision;
     if (this.sending || this.hasPending()) return;
     if (revision === this.confirmed.peek().revision) return;
-    const { finding } = this.confirmed.peek();
+    const wasSegmenting = this.confirmed.peek().finding;
     if (!(await this.reload())) return;
-    const { segmentation, finding: still, saved } = this.confirmed.peek();
-    if (still || (finding && saved)) return; // this page's own result, reported late
+    const { segmentation, finding: isSegmenting, saved } = this.confirmed.peek();
+    if (isSegmenting) return;
+    if (wasSegmenting && saved) return; // this page's own result, reported late
     this.context.tell(
-      finding
+      wasSegmenting
         ? describeResult(segmentation)
-        : "Another tab changed this table; this is how it is now.",
+        : "Another tab changed this table. The changed table is shown.",
     );
   }
 
