@@ -34,8 +34,8 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
             return read(content, data, options)
     raise content.error(
         "no keypoints found in it: kineme reads JSON of OpenPose ('people'), COCO "
-        "('keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (33 landmarks per "
-        "frame) or Ultralytics"
+        "('keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (a list of frames "
+        "with 33 landmarks) or Ultralytics"
     )
 
 
