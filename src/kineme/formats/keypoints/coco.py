@@ -3,12 +3,10 @@
 People are identified by the number of their track if all entries have one. Keypoints with a
 confidence below 0.3 count as not seen.
 
-*COCO*: a data set with ``annotations``, or a list of detection results. Each entry has ``image_id``
-and ``keypoints``: x, y and a third number for each of the 17 keypoints below, or of those named in
-``categories``. In a data set the third number is 0 for keypoints that are not labelled, 1 for
-hidden and 2 for visible ones; in results it is a confidence. The track is ``track_id``,
-``person_id``, ``instance_id`` or ``idx`` (AlphaPose). Frames are the ``images`` of a data set
-ordered by number or name, else the numbers in ``image_id``.
+*COCO*: a list of detection results. Each has ``image_id``, which ends in the number of the frame,
+and ``keypoints``: x, y and confidence of each of the 17 keypoints below. The track is ``track_id``,
+``person_id``, ``instance_id`` or ``idx`` (AlphaPose). Data sets, whose images are no video, are not
+read.
 
 *MMPose*: predictions that its inferencers and demos write. ``instance_info``, or the file itself,
 is a list of frames with ``frame_id`` and ``instances``. Each instance has ``keypoints``, two or
@@ -57,79 +55,33 @@ _DIGITS = re.compile(r"\d+")
 
 
 def is_coco(data: Any) -> bool:
-    """Return whether JSON data is a COCO data set or a list of results."""
-    entries = data.get("annotations") if isinstance(data, Mapping) else data
-    return isinstance(entries, list) and any(
+    """Return whether JSON data is a list of results of COCO."""
+    return isinstance(data, list) and any(
         isinstance(entry, Mapping) and "keypoints" in entry and "image_id" in entry
-        for entry in entries
+        for entry in data
     )
 
 
 def read_coco(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person in COCO keypoints."""
-    is_set = isinstance(data, Mapping)
-    entries = [
-        entry
-        for entry in (data["annotations"] if is_set else data)
-        if isinstance(entry, Mapping) and entry.get("keypoints")
-    ]
-    names = _find_category_names(data) if is_set else None
-    images = data.get("images") if is_set else None
-    frames = _find_image_frames(content, images, entries)
+    entries = [entry for entry in data if isinstance(entry, Mapping) and entry.get("keypoints")]
     people = []
-    for entry, frame, person in zip(entries, frames, name_people(entries, *_IDS), strict=True):
+    for entry, person in zip(entries, name_people(entries, *_IDS), strict=True):
         groups = split_groups(content, entry["keypoints"], 3)
+        frame = _parse_frame_number(content, entry.get("image_id"))
         people.append(Person(frame, groups[:, :2], groups[:, 2], person))
     count = len(people[0].points) if people else len(NAMES)
-    if names is None or len(names) != count:
-        names = list(NAMES)
-    if count != len(names):
-        raise content.error(f"a person has {count} keypoints, not {len(names)} as in COCO")
-    numbers = range(len(images)) if isinstance(images, list) else ()
-    return video_to_motion(content, options, "COCO", names, people, limit=LIMIT, frames=numbers)
-
-
-def _find_category_names(data: Mapping[str, Any]) -> list[str] | None:
-    """Return the keypoint names of the first category that has any."""
-    categories = data.get("categories")
-    for category in categories if isinstance(categories, list) else []:
-        names = category.get("keypoints") if isinstance(category, Mapping) else None
-        if isinstance(names, list) and names:
-            return make_unique(map(str, names))
-    return None
-
-
-def _find_image_frames(
-    content: FileContent, images: Any, entries: Sequence[Mapping[str, Any]]
-) -> list[int]:
-    if isinstance(images, list) and images:
-        usable = [image for image in images if isinstance(image, Mapping) and "id" in image]
-        # Order images by frame, since ids may be arbitrary.
-        order = {str(image["id"]): i for i, image in enumerate(sorted(usable, key=_make_sort_key))}
-        for entry in entries:
-            if str(entry.get("image_id")) not in order:
-                raise content.error(f"image {entry.get('image_id')!r:.40} is not in 'images'")
-        return [order[str(entry["image_id"])] for entry in entries]
-    return [_parse_frame_number(content, entry.get("image_id")) for entry in entries]
-
-
-def _make_sort_key(image: Mapping[str, Any]) -> tuple[int, list[int], str]:
-    """Return the sort key of an image: frame number, then numbers in its name, then the name."""
-    number = image.get("frame_id")
-    name = str(image.get("file_name") or image["id"])
-    return (number if isinstance(number, int) else 0, _find_numbers(name), name)
-
-
-def _find_numbers(name: str) -> list[int]:
-    return [int(digits[-18:]) for digits in _DIGITS.findall(name)]
+    if count != len(NAMES):
+        raise content.error(f"a person has {count} keypoints, not {len(NAMES)} as in COCO")
+    return video_to_motion(content, options, "COCO", NAMES, people, limit=LIMIT)
 
 
 def _parse_frame_number(content: FileContent, image: Any) -> int:
     """Return the last number in the image of a result: 12, "12.jpg", "video_0012"."""
-    numbers = _find_numbers(str(image)[:200])
+    numbers = _DIGITS.findall(str(image)[:200])
     if not numbers:
         raise content.error(f"image_id {str(image)[:40]!r} has no frame number in it")
-    return numbers[-1]
+    return int(numbers[-1][-18:])
 
 
 def is_mmpose(data: Any) -> bool:

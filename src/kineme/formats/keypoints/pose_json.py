@@ -23,8 +23,6 @@ _READERS = (
 )
 """Test and reader of each program, in the order in which they are tried."""
 
-_OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
-
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one person in a JSON file of keypoints."""
@@ -34,8 +32,8 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
             return read(content, data, options)
     raise content.error(
         "no keypoints found in it: kineme reads JSON of OpenPose ('people'), COCO "
-        "('keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (a list of frames "
-        "with 33 landmarks) or Ultralytics"
+        "(a list with 'keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (a list "
+        "of frames with 33 landmarks) or Ultralytics"
     )
 
 
@@ -48,16 +46,15 @@ def begins_openpose(head: bytes) -> bool:
 
 
 def begins_coco(head: bytes) -> bool:
-    """Return whether JSON starts like COCO's results, or like a data set of COCO.
-
-    For data sets that begin with their images, ``head`` includes the last bytes of the file.
-    """
-    return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
+    """Return whether JSON starts like a list of COCO's results."""
+    is_list = head.lstrip().startswith(b"[")
+    return is_list and b'"keypoints"' in head and b'"image_id"' in head
 
 
 def begins_mmpose(head: bytes) -> bool:
     """Return whether JSON starts like MMPose's predictions, with or without their metadata."""
-    return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
+    # The metadata come first and may be long.
+    return b'"meta_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
 
 
 def begins_mediapipe(head: bytes) -> bool:
