@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 import kineme
-from kineme.formats.keypoints.coco import NAMES as COCO
+from kineme.formats.keypoints.detectors import NAMES as COCO
+from kineme.formats.keypoints.detectors import OPENPOSE_LAYOUTS as OPENPOSE
 from kineme.formats.keypoints.mediapipe import NAMES as MEDIAPIPE
-from kineme.formats.keypoints.openpose import NAMES as OPENPOSE
 
 _SPOTS = {
     "nose": (0, 1.6), "neck": (0, 1.45), "head": (0, 1.65), "chest": (0, 1.2),

@@ -31,7 +31,7 @@ from growth import measure_peak
 from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, list_people
-from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
+from kineme.formats.keypoints.detectors import LAYOUTS as MMPOSE
 from kineme.formats.keypoints.people import track_people
 from kineme.formats.listing import holds_recording
 from reading import read
@@ -327,7 +327,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         ("[" * 100_000, "is not a complete JSON file"),
         ("{}", "no keypoints found in it"),
         ('[{"people": 3}]', "frame 0 has no list of 'people'"),
-        ('[{"people": [3]}]', "a person without keypoints"),
+        ('[{"people": [3]}]', "a person without pose_keypoints_3d"),
         ('[{"people": [{}]}]', "a person without pose_keypoints_3d, pose_keypoints_2d"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "keypoints: 15, 17, 18"),

@@ -6,7 +6,8 @@ import re
 from dataclasses import replace
 
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints import coco, mediapipe, openpose
+from kineme.formats.keypoints import mediapipe, openpose
+from kineme.formats.keypoints.detectors import find_detector, list_frames, read_detections
 from kineme.formats.keypoints.video import parse_json
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
@@ -14,22 +15,15 @@ from kineme.recordings import Motion
 
 _SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
 _FRAMES = re.compile(rb"\s*\[\s*\[")
-_READERS = (
-    (openpose.is_openpose, openpose.read_openpose),
-    (coco.is_coco, coco.read_coco),
-    (coco.is_mmpose, coco.read_mmpose),
-    (mediapipe.is_mediapipe, mediapipe.read_mediapipe),
-    (coco.is_ultralytics, coco.read_ultralytics),
-)
-"""Test and reader of each program, in the order in which they are tried."""
 
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one person in a JSON file of keypoints."""
     data = parse_json(content)
-    for recognises, read in _READERS:
-        if recognises(data):
-            return read(content, data, options)
+    if detector := find_detector(data):
+        return read_detections(content, options, detector, list_frames(data), data)
+    if mediapipe.is_mediapipe(data):
+        return mediapipe.read_mediapipe(content, data, options)
     raise content.error(
         "no keypoints found in it: kineme reads JSON of OpenPose ('people'), COCO "
         "(a list with 'keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (a list "
