@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import starmap
 
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints import mediapipe, openpose
@@ -13,8 +14,16 @@ from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
-_SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
-_FRAMES = re.compile(rb"\s*\[\s*\[")
+_STARTS = {
+    # A single frame of OpenPose does not count: it belongs to its folder.
+    "OpenPose": rb'\s*(\[|\{\s*"\d+"\s*:).*"people"',
+    # The metadata of MMPose come first and may be long.
+    "MMPose": rb'.*"meta_info"|(?=.*"frame_id").*"instances"',
+    "COCO": rb'\s*\[(?=.*"image_id").*"keypoints"',
+    "MediaPipe": rb'(?i).*landmarks"\s*:',
+    "Ultralytics": rb'\s*\[\s*\[.*"box"',
+}
+"""How a JSON file of each program starts."""
 
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
@@ -31,41 +40,10 @@ def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     )
 
 
-def begins_openpose(head: bytes) -> bool:
-    """Return whether JSON starts like a list of OpenPose's frames, or frames keyed by number.
-
-    A single frame does not count: it belongs to its folder.
-    """
-    return b'"people"' in head and _SEVERAL.match(head) is not None
+def _make_format(name: str, start: bytes) -> Format:
+    pattern = re.compile(start, re.DOTALL)
+    return Format(name, (".json",), lambda head: pattern.match(head) is not None, read_pose_json)
 
 
-def begins_coco(head: bytes) -> bool:
-    """Return whether JSON starts like a list of COCO's results."""
-    is_list = head.lstrip().startswith(b"[")
-    return is_list and b'"keypoints"' in head and b'"image_id"' in head
-
-
-def begins_mmpose(head: bytes) -> bool:
-    """Return whether JSON starts like MMPose's predictions, with or without their metadata."""
-    # The metadata come first and may be long.
-    return b'"meta_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
-
-
-def begins_mediapipe(head: bytes) -> bool:
-    """Return whether JSON starts like a list of MediaPipe's landmarks."""
-    return b'landmarks":' in head.lower().replace(b" ", b"")
-
-
-def begins_ultralytics(head: bytes) -> bool:
-    """Return whether JSON starts like Ultralytics' lists of people with boxes."""
-    return b'"box"' in head and _FRAMES.match(head) is not None
-
-
-_JSON = Format("OpenPose", (".json",), begins_openpose, read_pose_json)
-FORMATS = (
-    replace(_JSON, read_folder=openpose.read_openpose_folder),
-    replace(_JSON, name="MMPose", recognises=begins_mmpose),
-    replace(_JSON, name="COCO", recognises=begins_coco),
-    replace(_JSON, name="MediaPipe", recognises=begins_mediapipe),
-    replace(_JSON, name="Ultralytics", recognises=begins_ultralytics),
-)
+_OPENPOSE, *_OTHERS = starmap(_make_format, _STARTS.items())
+FORMATS = (replace(_OPENPOSE, read_folder=openpose.read_openpose_folder), *_OTHERS)
