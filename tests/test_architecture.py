@@ -92,13 +92,10 @@ ROOMS = {
         "collections of recordings with common clusters; search by example",
         "clips features formats labels methods plot recordings segments transfer",
     ),
-    "datasets": Room(
-        "recordings with known truth, also bundled; download of CMU's",
-        "formats recordings segments",
-    ),
+    "datasets": Room("recordings with known truth, also bundled", "recordings segments"),
     "evaluation": Room(
         "scores of results against truth, and of methods over a folder",
-        "datasets formats labels methods recordings segments transfer",
+        "formats labels methods recordings segments transfer",
     ),
     "web": Room(
         "sources of the pages, the built pages, and their data",

@@ -14,13 +14,11 @@ import kineme
 from kineme._util.json import DEEPEST, decode_json, load_json
 from kineme.datasets import bundled_truth
 from kineme.errors import ReadError
-from kineme.evaluation.inputs import is_annotation_file, read_trials
 from kineme.labels.collections import find_labels
 from kineme.synthesis import MotionGraph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
 
 DEEP = "[" * 100_000 + "]" * 100_000
-SOUND = {"label": "walk", "end_earliest": 10, "end_mean": 20, "end_latest": 30}
 
 
 class Offset(Struct):
@@ -89,45 +87,6 @@ def test_a_provenance_of_another_shape_is_refused_where_it_comes_in(
         ReadError, match=f"(provenance|annotation) is not as kineme writes it: {name}"
     ):
         kineme.read_segments(tmp_path / "a.json")
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        SOUND | {"label": []},
-        SOUND | {"label": 3},
-        SOUND | {"end_mean": 10**400},
-        SOUND | {"end_mean": 1e300},
-        SOUND | {"end_mean": True},
-        SOUND | {"end_latest": -1},
-        {"label": "walk"},
-        [],
-        None,
-    ],
-    ids=str,
-)
-def test_a_damaged_annotation_of_the_benchmark(tmp_path: Path, row: Any) -> None:
-    path = tmp_path / "annotations.json"
-    path.write_text(json.dumps({"trials": {"86_01": [SOUND, row]}}))
-    with pytest.raises(ReadError, match="has unexpected content|a number that is not finite"):
-        read_trials(path)
-    path.write_text(json.dumps({"trials": {"86_01": []}}))
-    with pytest.raises(ReadError, match="has unexpected content"):
-        read_trials(path)
-
-
-def test_whether_it_is_the_benchmark_is_no_error(tmp_path: Path) -> None:
-    path = tmp_path / "annotations.json"
-    for text in (DEEP, "[", "9" * 5000, '{"trials": 1e999}'):
-        path.write_text(text)
-        assert not is_annotation_file(path)
-
-
-def test_marks_of_any_length_in_the_text(tmp_path: Path) -> None:
-    path = tmp_path / "mocap.txt"
-    path.write_text(f"86_01\nwalk 1 2 {'9' * 5000}\n")
-    with pytest.raises(ReadError, match="expected the name of a trial"):
-        read_trials(path)
 
 
 def test_times_beyond_all_measure_are_cut_off(tmp_path: Path) -> None:

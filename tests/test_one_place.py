@@ -25,6 +25,7 @@ from kineme.studio.storage.sidecars import read_saved_options, write_reading
 from kineme.synthesis import MotionGraph, Source, read_graph, write_graph
 from kineme.web.encoding import from_json, to_json
 from kineme.web.requests import ReadRequest
+from plugins import install_package
 
 METHOD = '''
 from dataclasses import dataclass
@@ -217,10 +218,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
                "words": LABELS, "longest": SCORE}  # fmt: skip
     for name, text in modules.items():
         (home / "somebody" / f"{name}.py").write_text(text)
-    info = home / "somebody-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: somebody\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(ENTRY_POINTS)
+    install_package(home, "somebody", ENTRY_POINTS)
     return home
 
 

@@ -3,13 +3,12 @@
 They are found in a folder that holds the recordings as published (``86.asf``,
 ``86_01.amc``, …) and the annotations (``annotations.json`` or the authors'
 ``mocap.txt``). Where no folder is named, it is ``KINEME_DATA``, else the cache
-that ``kineme data cmu 86`` fills.
+that ``kineme-cmu 86`` fills.
 """
 
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,17 +18,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme.errors import KinemeWarning, MissingDependencyError, ParameterError, ReadError
-from kineme.evaluation.inputs import read_trials
+from kineme.errors import ParameterError, ReadError
 from kineme.evaluation.truth import Truth
 from kineme.recordings import Motion
+from kineme_reproduction.annotations import read_trials
+from kineme_reproduction.cmu import find_cache_folder
 
 Floats = NDArray[np.float64]
 
 FPS = 30.0
 TRIALS = tuple(f"86_{number:02d}" for number in range(1, 15))
 ANNOTATIONS = ("annotations.json", "mocap.txt")
-FETCH = "fetch it with: kineme data cmu 86"
+FETCH = "download it with: kineme-cmu 86"
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +62,9 @@ def find_folder(data: str | PathLike[str] | None = None) -> Path:
     Raises
     ------
     ReadError
-        It holds no annotations, or no folder is known.
+        It holds no annotations.
     """
-    named = data or os.environ.get("KINEME_DATA") or _cache()
-    if named is None:
-        raise ReadError("cmu86", "no data folder: name one with --data or KINEME_DATA")
+    named = data or os.environ.get("KINEME_DATA") or find_cache_folder()
     for folder in (Path(named), Path(named) / "cmu86"):
         if _annotations(folder) is not None:
             return folder
@@ -78,9 +76,7 @@ def read_truths(folder: Path) -> dict[str, Truth]:
     path = _annotations(folder)
     if path is None:
         raise ReadError(folder, f"no {' or '.join(ANNOTATIONS)} here: {FETCH}")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KinemeWarning)
-        return read_trials(path, fps=FPS)
+    return read_trials(path, fps=FPS)
 
 
 def load_trials(
@@ -132,12 +128,3 @@ def _trial(path: Path, truths: dict[str, Truth]) -> Trial:
 
 def _annotations(folder: Path) -> Path | None:
     return next((folder / name for name in ANNOTATIONS if (folder / name).is_file()), None)
-
-
-def _cache() -> Path | None:
-    from kineme.datasets.cmu import find_cache_folder
-
-    try:
-        return find_cache_folder()
-    except MissingDependencyError:
-        return None

@@ -104,6 +104,12 @@ def test_a_place_that_cannot_be_written(
         ("segment", "a.bvh", "-o", "cuts.xlsx"),
         ("segment", "a.bvh", "--plot", "cuts.jpeg2"),
         ("report", "a.bvh", "-o", "page.docx"),
+        ("events", "a.bvh", "-o", "events.xlsx"),
+        ("events", "a.bvh", "--gait", "gait.json"),
+        ("events", "a.bvh", "--labels", "steps.docx"),
+        ("library", "export", "lib", "-o", "segments.xlsx"),
+        ("graph", "a.bvh", "-o", "graph.csv"),
+        ("synthesize", "graph.json", "--actions", "walk", "-o", "new.docx"),
         ("live", "--replay", "a.bvh", "--speed", "-1"),
         ("convert", "a.bvh", "b.bvh", "folder"),
     ],
@@ -188,6 +194,15 @@ def test_what_is_printed_to_a_full_disk_is_one_sentence(tmp_path: Path) -> None:
         )
     assert done.returncode == 1
     assert done.stderr == "error: output cannot be written: No space left on device\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there such names are missing files")
+@pytest.mark.parametrize("command", ["segment", "library show", "library build --into lib"])
+def test_a_name_that_is_too_long_is_one_sentence(kineme_process, command: str) -> None:
+    done = kineme_process(*command.split(), "a" * 300, code=1)
+    assert done.stderr.startswith("error: " + "a" * 300)
+    assert done.stderr.endswith(": File name too long\n")
+    assert len(done.stderr.splitlines()) == 1
 
 
 def test_memory_does_not_grow_with_the_square_of_the_columns() -> None:

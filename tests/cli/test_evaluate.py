@@ -1,4 +1,4 @@
-"""``kineme evaluate`` and ``kineme data`` as people run them: results, the benchmark, folders."""
+"""``kineme evaluate`` as people run it: results, the benchmark, folders."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ import kineme as package
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.evaluation import folder
 from kineme.evaluation.score import scores as all_scores
+from plugins import install_package
 
 REPRODUCTION = Path(__file__).parents[2] / "reproduction"
 
@@ -33,15 +34,12 @@ def benchmark(tmp_path_factory, monkeypatch) -> None:
     """The part of the package that reproduces papers, as an installer leaves it."""
     project = tomllib.loads((REPRODUCTION / "pyproject.toml").read_text())["project"]
     site = tmp_path_factory.mktemp("site")
-    info = site / "kineme_reproduction-0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: 0\n")
     lines = [
         line
         for group, points in project["entry-points"].items()
         for line in (f"[{group}]", *(f"{name} = {place}" for name, place in points.items()))
     ]
-    (info / "entry_points.txt").write_text("\n".join(lines))
+    install_package(site, "kineme_reproduction", "\n".join(lines))
     monkeypatch.syspath_prepend(str(site))
 
 
@@ -111,24 +109,10 @@ def test_right_borders_of_wrong_classes_are_explained(kineme, tmp_path):
     assert "borders are better than the classes" not in right.stdout
 
 
-def test_the_benchmarks_own_annotations_know_the_trial_by_the_recordings_name(
-    kineme, data_dir, tmp_path
-):
-    annotations = data_dir / "cmu86" / "annotations.json"
-    recording = data_dir / "cmu86" / "86_11.amc"
-    kineme("segment", recording, "--preset", "voegele2014", "-o", "found.json", "-q")
-    ran = kineme("evaluate", "found.json", "--against", annotations, "-o", "out.csv", "-q")
-    assert ran.stdout == ""
-    row = scores(tmp_path / "out.csv")[0]
-    assert float(row["border_f1"]) > 0.5
-    wrong = kineme("evaluate", "found.json", "--against", annotations, "--trial", "86_01", code=1)
-    assert "covers 38.17 s, but the result lasts 47.30 s" in wrong.stderr
-
-
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (("cmu86", "-o", "scores.xlsx"), 1, ".json or .csv"),
+        (("cmu86", "-o", "scores.xlsx"), 2, ".json, .csv"),
         (("cmu86", "-o", "nowhere/scores.csv"), 1, "does not exist"),
         (("cmu86", "--against", "labels.csv"), 2, "has its own annotations"),
         (("found.csv",), 2, "--against LABELS is needed"),
@@ -153,7 +137,7 @@ def test_a_call_that_cannot_work_is_one_sentence(kineme, tmp_path, arguments, co
 @pytest.mark.usefixtures("benchmark")
 @pytest.mark.parametrize(
     ("option", "code", "message"),
-    [(("--method", "kmeans"), 2, "no method 'kmeans'"), (("--data", "."), 1, "kineme data cmu 86")],
+    [(("--method", "kmeans"), 2, "no method 'kmeans'"), (("--data", "."), 1, "kineme-cmu 86")],
 )
 def test_a_benchmark_that_cannot_run_is_one_sentence(kineme, option, code, message):
     ran = kineme("evaluate", "cmu86", *option, code=code)
@@ -165,31 +149,6 @@ def test_the_benchmark_that_is_not_installed_is_one_sentence(kineme, monkeypatch
     ran = kineme("evaluate", "cmu86", code=1)
     assert ran.stderr.count("\n") == 1
     assert "pip install ./reproduction" in ran.stderr
-
-
-def test_data_says_what_it_took_or_why_not(kineme, data_dir, tmp_path):
-    pytest.importorskip("pooch")
-    folder = tmp_path / "cache" / "cmu86"
-    folder.mkdir(parents=True)
-    for name in ("86.asf", "86_01.amc"):
-        (folder / name).symlink_to(data_dir / "cmu86" / name)
-    (folder / "mocap.txt").write_text("86_01\nwalk 500 510 520\njump 4579 4579 4579\n")
-    ran = kineme("data", "cmu", 86, "--trials", 1, KINEME_CACHE=str(tmp_path / "cache"))
-    assert "86_01.amc: 4579 frames, 3.7 MB, there already" in ran.stderr
-    assert "3 files in" in ran.stdout
-    ran = kineme(
-        *("data", "cmu", 7, "--timeout", 0.1),
-        KINEME_CACHE=str(tmp_path / "cache"),
-        KINEME_CMU_SITE="http://127.0.0.1:9",
-        code=1,
-    )
-    assert "gave up after 5 failed attempts" in ran.stderr
-
-
-@pytest.mark.parametrize("trials", ["one", "0", "", "3-1", "1,3-1", "3-"])
-def test_trials_that_are_no_numbers_are_refused(kineme, trials):
-    ran = kineme("data", "cmu", 86, "--trials", trials, code=2)
-    assert "--trials" in ran.stderr
 
 
 @pytest.fixture

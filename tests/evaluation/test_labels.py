@@ -222,7 +222,7 @@ def test_a_segmentation_is_scored_at_its_own_levels():
         (([20], [18], [25]), "after action 1 \\(a\\) is not in order"),
         (([70], [70], [70]), "at frame 70 is not before the end of the recording, frame 60"),
         (([0], [0], [0]), "borders overlap"),
-        (([20, 30], [20, 30], [20, 30]), "2 actions have 1 borders"),
+        (([20, 30], [20, 30], [20, 30]), "earliest has 2 borders, but 2 actions have 1 between"),
     ],
 )
 def test_impossible_marks_are_one_clear_error(marks, words):
@@ -242,7 +242,9 @@ def test_a_truth_without_actions_is_one_clear_error(labels):
         Truth(labels, [], [], [], 60, 10.0)
 
 
-@pytest.mark.parametrize("borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5]])
+@pytest.mark.parametrize(
+    "borders", [[0, 5, 5, 9], [1, 9], [0], [0, 9, 5], [[0, 5], [5, 9]], [0, float("nan"), 9], 5]
+)
 def test_intervals_must_tile_from_0(borders):
     with pytest.raises(ParameterError):
-        Labelling(borders, tuple("abc")[: len(borders) - 1], 10.0)
+        Labelling(borders, tuple("abc")[: np.size(borders) - 1], 10.0)

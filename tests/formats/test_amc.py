@@ -73,6 +73,15 @@ def test_values_may_come_in_any_order_and_layout(tmp_path: Path) -> None:
     assert_same(read(write_pair(tmp_path, amc=with_hip)), plain)
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1252"])
+def test_names_with_umlauts(tmp_path: Path, encoding: str) -> None:
+    (tmp_path / "a.asf").write_bytes(ASF.replace("foot", "Fuß").encode(encoding))
+    (tmp_path / "a.amc").write_bytes(AMC.replace("foot", "Fuß").encode(encoding))
+    motion = read(tmp_path / "a.amc")
+    assert motion.skeleton.names[3:5] == ("Fuß", "Fuß_end")
+    np.testing.assert_array_equal(motion.positions, read(write_pair(tmp_path)).positions)
+
+
 @pytest.mark.parametrize(
     "line",
     [

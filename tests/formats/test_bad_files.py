@@ -5,9 +5,11 @@ from __future__ import annotations
 import tracemalloc
 from pathlib import Path
 
+import numpy as np
 import pytest
 from format_samples import AMC, ASF, BVH
 
+import kineme
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import read
 
@@ -31,6 +33,18 @@ def swap(text: str, old: str, new: str) -> str:
 
 
 HEAD, DATA = BVH.split("MOTION")
+
+
+@pytest.mark.parametrize("suffix", [".bvh", ".amc", ".trc", ".csv", ".npz", ".signals.csv"])
+@pytest.mark.parametrize("what", ["person", "take"])
+def test_a_person_or_take_that_the_file_does_not_name(
+    tmp_path: Path, suffix: str, what: str
+) -> None:
+    path, motion = tmp_path / f"walk{suffix}", kineme.read(kineme.bundled_recording())[:60]
+    kineme.write(kineme.Signals(np.eye(60, 2), 30.0) if "signals" in suffix else motion, path)
+    with pytest.raises(ReadError, match=rf"no {what} '1': it holds a single one"):
+        read(path, **{what: 1})
+    assert read(path, **{what: 0}).n_frames == 60
 
 
 @pytest.mark.parametrize(

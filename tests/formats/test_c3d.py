@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from marker_samples import DEC, INTEL, MIPS, PLUG_IN_GAIT, make_walk, to_c3d, to_millimetres
+from typer.testing import CliRunner
 
 import kineme
 from growth import measure_peak
+from kineme.cli.app import app
 from kineme.cycles import landmarks
 from kineme.errors import KinemeWarning, ReadError, SeveralPeopleError
 from kineme.features import pose_features
@@ -136,6 +138,20 @@ def test_modelled_and_nameless_points_are_left_out(tmp_path: Path) -> None:
     assert not {"LKneeAngles", "*12", "C_101", "Unlabeled 7"} & set(names)
 
 
+def test_contacts_on_force_plates_count_frames_of_points(tmp_path: Path) -> None:
+    force = np.zeros((600, 2))
+    force[200:300, 0], force[250:450, 1] = -700, -700
+    data = to_c3d(POINTS, PLUG_IN_GAIT, real=True, analog=force.reshape(60, 10, 2))
+    (tmp_path / "take.c3d").write_bytes(data)
+    options = ["--columns", "*", "--left", "emg0", "--right", "emg1"]
+    outputs = ["-o", str(tmp_path / "events.csv"), "--labels", str(tmp_path / "labels.csv")]
+    done = CliRunner().invoke(app, ["events", str(tmp_path / "take.c3d"), *options, *outputs])
+    assert done.exit_code == 0, done.output
+    frames = np.loadtxt(tmp_path / "events.csv", delimiter=",", skiprows=1, usecols=1)
+    assert frames == pytest.approx([20, 25, 30, 45], abs=0.2)
+    assert kineme.read_segments(tmp_path / "labels.csv").n_frames == 60  # as the motion
+
+
 def test_two_subjects(tmp_path: Path) -> None:
     labels = [f"{who}:{name}" for who in ("Ann", "Bob") for name in PLUG_IN_GAIT] + ["Box:top"]
     points = np.concatenate([POINTS, POINTS + 1000, POINTS[:, :1]], axis=1)
@@ -155,6 +171,13 @@ def test_two_subjects(tmp_path: Path) -> None:
     assert choose_person("take.c3d", ["Ann", "ANN"], "Ann") == "Ann"
     with pytest.raises(SeveralPeopleError, match="no person 'ann': choose from Ann, ANN"):
         choose_person("take.c3d", ["Ann", "ANN"], "ann")
+
+
+def test_the_name_of_a_single_subject_is_checked(tmp_path: Path) -> None:
+    data = to_c3d(POINTS, [f"Ann:{name}" for name in PLUG_IN_GAIT])
+    assert read(tmp_path, "take.c3d", data, person="ann").provenance.person == "Ann"
+    with pytest.raises(SeveralPeopleError, match="no person 'Bob': choose from Ann"):
+        read(tmp_path, "take.c3d", data, person="Bob")
 
 
 def test_events_of_two_subjects_stay_apart(tmp_path: Path) -> None:

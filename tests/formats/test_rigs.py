@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import kineme
+from kineme._util import rotations as rot
 from kineme.errors import MotionError
 from kineme.formats.read_write import list_takes, read_motion
 from kineme.formats.scenes.fbx_writer import write_takes
@@ -114,6 +115,18 @@ def test_a_negative_scale_is_no_rig() -> None:
     one = np.array([[1.0, 0.0, 0.0, 0.0]])
     with pytest.raises(MotionError, match="not one positive number"):
         Rig(("hips",), (-1,), np.zeros((1, 3)), one, -np.ones((1, 3)), one)
+
+
+def test_no_joint_spins_between_frames_of_an_fbx(tmp_path: Path) -> None:
+    motion = kineme.read(kineme.bundled_recording())[:11]
+    turns = motion.rotations.copy()
+    # Passes 90 degrees about the second axis, where two triples of angles meet.
+    angles = np.column_stack([np.full(11, 0.1), np.linspace(0.6, 2.6, 11), np.full(11, 0.2)])
+    bent = turns[:, motion.joint("LeftLeg")] = rot.from_euler(angles, "zyx")
+    kineme.write(Motion.from_rotations(motion.skeleton, turns[::2], 30.0), tmp_path / "knee.fbx")
+    found = read_motion(tmp_path / "knee.fbx", fps=60)
+    alike = (found.rotations[:, found.joint("LeftLeg")] * bent).sum(axis=1)
+    np.testing.assert_allclose(np.abs(alike), 1, atol=1e-6)
 
 
 def test_an_fbx_has_a_take_for_each_motion(tmp_path: Path) -> None:

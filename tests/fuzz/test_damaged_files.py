@@ -24,7 +24,6 @@ from kineme import formats
 from kineme._util.files import CORRECTED
 from kineme.datasets import bundled_recording, bundled_truth
 from kineme.errors import KinemeError, KinemeWarning
-from kineme.evaluation.inputs import is_annotation_file, read_trials
 from kineme.formats.listing import scan_folder
 from kineme.labels.collections import find_labels
 from kineme.library import Library, build
@@ -43,6 +42,7 @@ from kineme.studio.storage.sidecars import (
 from kineme.studio.storage.tables import Journal, find_saved_table
 from kineme.synthesis import motion_graph
 from kineme.synthesis.graph import load_sources, read_graph, write_graph
+from kineme_reproduction.annotations import read_trials
 
 LARGEST = 100_000
 """Maximum bytes of a real recording; longer texts are cut."""
@@ -146,7 +146,8 @@ def read_tables(path: Path) -> None:
 def search_library(path: Path) -> None:
     library = open_library(path)
     library.unsure()
-    library.search(cluster=library.clusters()[0].cluster, top=5)
+    for cluster in library.clusters()[:1]:  # a damaged table may have none
+        library.search(cluster=cluster.cluster, top=5)
 
 
 def build_library(path: Path) -> None:
@@ -185,7 +186,7 @@ READERS: dict[str, tuple[Callable[[Path], object], ...]] = {
         lambda path: scan_folder(path.parent),
     ),
     "labels": (read_labels,),
-    "annotations": (is_annotation_file, read_trials),
+    "annotations": (read_trials,),
     "pairs": (read_pair,),
     "knowledge": (kineme.KnowledgeBase.load,),
     "graphs": (lambda path: load_sources(read_graph(path)),),

@@ -85,6 +85,7 @@ def test_columns_of_intervals_have_usual_names(tmp_path: Path, text: str) -> Non
         ("bids.tsv", "# by Ann, 2026\nonset\tduration\ttrial_type\n0\t1.5\twalk\n"),
         ("boris.csv", "Observation id\tx\n\nTime,Behavior,Status\n0,walk,START\n1.5,walk,STOP\n"),
         ("intervals.csv", "by Ann, 2026\nstart_s;stop_s;label\n0;1,5;walk\n"),
+        ("commas.csv", "start_s;stop_s;label;good, bad\n0;1,5;walk;good\n"),
     ],
 )
 def test_lines_above_the_header_may_have_another_separator(

@@ -20,6 +20,7 @@ from kineme.errors import ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.library import Library, build, gathering
 from kineme.methods.segmenter import SegmentOptions
+from plugins import install_package
 
 
 def test_one_bad_file_costs_itself_only(built: Path, takes: Path) -> None:
@@ -283,11 +284,8 @@ FORMAT = Format("DEADLY", (".deadly",), lambda head: False, read)
 
 def test_a_worker_that_dies_costs_its_recording_only(takes: Path, tmp_path: Path) -> None:
     site = tmp_path / "site"
-    (site / "deadly-1.0.dist-info").mkdir(parents=True)
+    install_package(site, "deadly", "[kineme.formats]\ndeadly = deadly:FORMAT\n")
     (site / "deadly.py").write_text(DEADLY)
-    info = site / "deadly-1.0.dist-info"
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: deadly\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text("[kineme.formats]\ndeadly = deadly:FORMAT\n")
     own = copy_takes(takes, tmp_path, a="wrist.csv", c="wrist.csv", d="wrist.csv")
     for number, path in enumerate(own.iterdir()):
         with path.open("a") as file:

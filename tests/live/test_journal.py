@@ -80,6 +80,8 @@ def test_what_is_there_is_not_replaced(tmp_path):
     open_one = Journal(tmp_path / "take", ["x"], 50.0)
     with pytest.raises(WriteError, match="--recover"):
         Journal(tmp_path / "take", ["x"], 50.0)
+    with pytest.raises(WriteError, match="still being written"):
+        recover_journal(open_one.path)
     open_one.close()
     (tmp_path / "other.parquet").write_bytes(b"")
     with pytest.raises(WriteError, match="another name"):

@@ -161,7 +161,7 @@ def test_bursts_of_a_muscle_are_repetitions() -> None:
 
 
 def test_a_cutoff_beyond_the_samples_is_refused() -> None:
-    with pytest.raises(ParameterError, match="needs signals of more than 12 Hz, not 10"):
+    with pytest.raises(ParameterError, match="needs a rate above 12 Hz, not 10"):
         emg_envelope(np.ones((50, 1)), 10)
     assert len(emg_envelope(np.ones((1, 1)), 100)) == 1
 

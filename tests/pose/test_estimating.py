@@ -248,6 +248,9 @@ def test_without_an_estimator_the_install_line_is_said(
     monkeypatch.setattr("kineme.pose.estimators.find_spec", lambda name: None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'kineme\[video\]'"):
         kineme.read(video)
+    result = CliRunner().invoke(app, ["pose", str(video)])
+    assert result.exit_code == 1
+    assert "pip install 'kineme[video]'" in result.stderr
 
 
 def test_the_command(video: Path, pictures: list[float], tmp_path: Path) -> None:

@@ -53,7 +53,7 @@ def test_it_says_what_was_left_out_and_where(squats: tuple[Cycles, Cycles], tmp_
     sessions = squats[0], squats[1].exclude([2])
     write_sessions(*sessions, tmp_path / "sheet.html", names=("May", "June"))
     page = read_text(tmp_path / "sheet.html")
-    assert "; 1 of June left out (by hand)." in page
+    assert "; 1 repetition of June left out (by hand)." in page
     assert "of May left out" not in page
     assert "(means of 4 and 3)" in page
 

@@ -95,7 +95,7 @@ def test_a_mean_leaves_out_what_is_no_number():
 
 def test_the_folder_is_the_one_named_or_cmu86_in_it(folder, tmp_path, monkeypatch):
     assert find_folder(folder) == find_folder(folder.parent) == folder
-    with pytest.raises(ReadError, match="kineme data cmu 86"):
+    with pytest.raises(ReadError, match="kineme-cmu 86"):
         find_folder(tmp_path)
     monkeypatch.setenv("KINEME_DATA", str(folder.parent))
     assert find_folder() == folder
@@ -107,7 +107,7 @@ def test_the_folder_is_the_one_named_or_cmu86_in_it(folder, tmp_path, monkeypatc
 def test_trials_that_cannot_be_had_are_one_sentence(folder, tmp_path):
     with pytest.raises(ParameterError, match="no trial '86_15'"):
         load_trials(folder, ["86_15"])
-    with pytest.raises(ReadError, match=r"86_02\.amc: not at hand; fetch it"):
+    with pytest.raises(ReadError, match=r"86_02\.amc: not at hand; download it"):
         load_trials(folder, ["86_02"])
     (tmp_path / "annotations.json").write_bytes((folder / "annotations.json").read_bytes())
     with pytest.raises(ReadError, match="no recording of subject 86"):

@@ -27,7 +27,7 @@ from kineme.evaluation import (
     cut_ratio,
     one_to_one_accuracy,
 )
-from kineme.evaluation.inputs import read_trials
+from kineme_reproduction.annotations import read_trials
 from kineme_reproduction.benchmark import published
 from kineme_reproduction.protocols import majority_accuracy, strict_and_tolerant
 

@@ -1,4 +1,4 @@
-"""Array types and interpolation."""
+"""Array types, interpolation and unit vectors."""
 
 from __future__ import annotations
 
@@ -30,6 +30,18 @@ def interpolate_frames(values: ArrayLike, at: ArrayLike) -> Floats:
     share = (places - before)[(..., *[None] * (rows.ndim - 1))]
     mixed: Floats = (1 - share) * rows[before] + share * rows[after]
     return mixed
+
+
+def normalize_vectors(vectors: Floats) -> Floats:
+    """Return unit vectors along the last axis; vectors of length 0 stay 0.
+
+    Examples
+    --------
+    >>> normalize_vectors(np.array([[0.0, 2.0], [0.0, 0.0]])).tolist()
+    [[0.0, 1.0], [0.0, 0.0]]
+    """
+    # The floor avoids a division by 0.
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
 
 
 def bridge_line(track: Floats, hidden: NDArray[np.bool_]) -> None:

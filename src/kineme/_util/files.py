@@ -49,6 +49,16 @@ _DRAFT = re.compile(r"\.kineme-[0-9a-f]{12}(\.\w+)?")
 _cleaned: set[Path] = set()  # folders whose abandoned drafts this process has removed
 
 
+def is_remote(path: AnyPath) -> bool:
+    """Return whether a path is a URL of universal_pathlib."""
+    return hasattr(path, "protocol")
+
+
+def make_absolute(path: Path) -> Path:
+    """Return the absolute path without resolving links, so that given names are kept."""
+    return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
+
+
 @contextmanager
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Provide a draft to write to, which replaces ``path`` when the block ends.
@@ -348,10 +358,10 @@ def _open_draft(draft: Path, *, create: bool = True) -> int:
     return os.open(draft, how, 0o666)
 
 
-def is_locked(draft: Path) -> bool:
-    """Return whether another process is still writing a draft.
+def is_locked(draft: Path, *, if_unknown: bool = True) -> bool:
+    """Return whether a file or folder is still being written, see `lock_shared`.
 
-    Also True if files cannot be locked, so that such drafts are never removed.
+    ``if_unknown`` is the answer where files cannot be locked: drafts are never removed there.
     """
     if sys.platform == "win32":
         return False
@@ -362,8 +372,10 @@ def is_locked(draft: Path) -> bool:
     try:
         # A writer holds a shared lock, so an exclusive one fails.
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
+    except BlockingIOError:
         return True
+    except OSError:
+        return if_unknown
     finally:
         os.close(file)
     return False

@@ -10,6 +10,8 @@ import sys
 
 WRITE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
 """Errors on writing output to a file that are reported without a traceback."""
+PATH_ERRORS = frozenset({errno.ENAMETOOLONG, errno.EACCES})
+"""Errors on looking up a path that are reported without a traceback."""
 
 
 def main() -> None:
@@ -25,6 +27,11 @@ def main() -> None:
     except KeyboardInterrupt:
         sys.exit(130)
     except OSError as error:
+        if error.errno in PATH_ERRORS and error.filename:
+            from kineme.cli.terminal import print_error
+
+            print_error(f"{error.filename}: {error.strerror}")
+            sys.exit(1)
         if error.errno not in WRITE_ERRORS:
             raise
         # The flush at exit must not fail again.

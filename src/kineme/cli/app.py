@@ -12,8 +12,7 @@ from kineme.cli.help import make_lazy_group
 # fmt: off
 COMMANDS = (
     "segment", "live", "pose", "presets", "cycles", "events", "split", "report", "studio",
-    "convert", "info", "demo", "evaluate", "data", "label", "transfer", "library", "graph",
-    "synthesize",
+    "convert", "info", "demo", "evaluate", "label", "transfer", "library", "graph", "synthesize",
 )
 # fmt: on
 """Commands in the order of the help; each is a function in the module of its name."""

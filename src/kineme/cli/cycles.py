@@ -14,7 +14,7 @@ from rich.text import Text
 
 from kineme._util.checks import format_count
 from kineme._util.files import PAGES, PICTURES, atomic_write
-from kineme.cli.files import Batch, Files, Recursive, SegmentTable
+from kineme.cli.files import Batch, Files, Recursive, SegmentTable, check_suffix
 from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import ALL, READING, SEGMENTING, Quiet, add_options
 from kineme.cli.segment import read_and_segment
@@ -33,7 +33,7 @@ from kineme.cycles import (
 from kineme.cycles.channels import make_contact_channels
 from kineme.cycles.comparison import map_sides, pair_sides
 from kineme.cycles.events import OFF, STRIKE, normalize_event_name
-from kineme.cycles.export import SUFFIXES
+from kineme.cycles.export import SUFFIXES, TABLE_SUFFIXES
 from kineme.cycles.measure import cycles as measure_cycles
 from kineme.cycles.repetitions import is_event
 from kineme.errors import ParameterError
@@ -229,14 +229,10 @@ def _check_targets(
     output: Path | None, plot: Path | None, compare: Path | None, sides: Path | None
 ) -> None:
     """Raise typer.BadParameter for files that cannot be written, before any work is done."""
-    for name, path, suffixes in (
-        ("--output", output, SUFFIXES),
-        ("--plot", plot, PICTURES),
-        ("--compare", compare, (".csv", ".parquet", *PAGES)),
-        ("--sides", sides, (".csv", ".parquet")),
-    ):
-        if path is not None and path.suffix.lower() not in suffixes:
-            raise typer.BadParameter(f"{path} must end in {', '.join(suffixes)}", param_hint=name)
+    check_suffix("--output", output, SUFFIXES)
+    check_suffix("--plot", plot, PICTURES)
+    check_suffix("--compare", compare, (*TABLE_SUFFIXES, *PAGES))
+    check_suffix("--sides", sides, TABLE_SUFFIXES)
 
 
 def _exclude_cycles(cycles: Cycles, rules: list[str]) -> Cycles:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from kineme.cli.files import check_suffix
 from kineme.cli.help import METHOD, OUTPUT, option, output_option
 from kineme.cli.options import SET, Constants, Quiet, parse_constants, split_names
 from kineme.cli.terminal import exit_on_error
@@ -40,7 +41,7 @@ def evaluate(
         option(
             RESULT,
             "The truth: a table with start_s, stop_s, label; a .txt with one label per "
-            "frame; a segment table; annotations.json or mocap.txt.",
+            "frame; or a segment table.",
             metavar="LABELS",
         ),
     ] = None,
@@ -101,8 +102,7 @@ def evaluate(
         list[str] | None,
         option(
             BENCH,
-            "Recording of the benchmark, such as 86_01, by default all available; for one "
-            "result, the recording whose annotations to use.",
+            "Recording of the benchmark, such as 86_01; by default all available.",
             metavar="NAME",
         ),
     ] = None,
@@ -111,7 +111,7 @@ def evaluate(
         option(
             BENCH,
             "Folder of its recordings and annotations; by default KINEME_DATA, then the "
-            "files that `kineme data cmu 86` fetched.",
+            "files that `kineme-cmu 86` downloaded.",
             metavar="FOLDER",
         ),
     ] = None,
@@ -171,7 +171,7 @@ def evaluate(
             from kineme.cli.scoring import score_file
 
             silent = quiet or as_json
-            records = score_file(Path(what), against, fps, trial, quiet=silent)
+            records = score_file(Path(what), against, fps, quiet=silent)
         else:
             if against is not None:
                 raise typer.BadParameter(
@@ -182,13 +182,12 @@ def evaluate(
 
 
 def _check_output(output: Path | None) -> None:
-    """Raise WriteError for an output that cannot be written, before any work is done."""
+    """Raise an error for an output that cannot be written, before any work is done."""
     if output is None:
         return
     from kineme.evaluation.score import OUTPUTS
 
-    if output.suffix.lower() not in OUTPUTS:
-        raise WriteError(output, f"scores are written as {' or '.join(OUTPUTS)}")
+    check_suffix("--output", output, OUTPUTS)
     if not output.parent.is_dir():
         raise WriteError(output, f"the folder {output.parent} does not exist")
 

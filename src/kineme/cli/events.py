@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan
 from pathlib import Path
 from typing import Annotated
@@ -10,19 +11,22 @@ import typer
 from rich.text import Text
 
 from kineme._util.checks import format_count
-from kineme.cli.files import Batch, Files, Recursive
+from kineme.cli.files import Batch, Files, Recursive, check_suffix
 from kineme.cli.help import OUTPUT, TABLES, option, output_option
 from kineme.cli.options import READING, Quiet, add_options
 from kineme.cli.tables import make_table, show_written
 from kineme.cli.terminal import Console
 from kineme.cycles.events import Events, foot_events, strides
 from kineme.cycles.events import gait as gait_of
-from kineme.cycles.export import write_table
+from kineme.cycles.export import TABLE_SUFFIXES, write_table
 from kineme.cycles.table import Columns
 from kineme.formats import read
+from kineme.formats.files import load
+from kineme.formats.markers.c3d_file import parse_c3d
 from kineme.formats.options import ReadOptions
-from kineme.labels import write_segments
+from kineme.labels import list_written_suffixes, write_segments
 from kineme.labels.c3d_events import require_c3d, write_events
+from kineme.recordings import Motion, Signals
 
 FEET = "Feet"
 
@@ -42,7 +46,7 @@ def events(
         Path | None,
         option(
             OUTPUT,
-            "Write means of strides, stands, swings and steps: .csv or .parquet, and each "
+            "Write means of strides, stances, swings and steps: .csv or .parquet, and each "
             "stride next to it (.strides.csv).",
         ),
     ] = None,
@@ -77,46 +81,64 @@ def events(
     gaits = batch.targets("--gait", gait, ".csv")
     spans = batch.targets("--labels", labels, ".csv")
     copies = batch.targets("--c3d", c3d, ".c3d")
+    for table, measures, span, copy in zip(tables, gaits, spans, copies, strict=True):
+        check_suffix("--output", table, TABLE_SUFFIXES)
+        check_suffix("--gait", measures, TABLE_SUFFIXES)
+        check_suffix("--labels", span, list_written_suffixes())
+        check_suffix("--c3d", copy, (".c3d",))
     if c3d is not None and read_options.fps:
         raise typer.BadParameter(
             "a C3D has its own frame rate: leave out --fps", param_hint="--c3d"
         )
 
     def work(path: Path, options: ReadOptions, _: None, *targets: Path | None) -> None:
+        table_path, gait_path, label_path, c3d_path = targets
         with batch.progress(path) as stage:
             stage("reading")
-            if targets[3] is not None:
+            if c3d_path is not None:
                 require_c3d(path)
             recording = read(path, **vars(options))
             contacts = foot_events(recording, left=left, right=right)
             measures = gait_of(contacts, recording)
-        for target in filter(None, targets):
+            contacts = _count_file_frames(contacts, recording, path, options)
+        written = [target for target in targets if target is not None]
+        for target in written:
             target.parent.mkdir(exist_ok=True)
-        table, measured, span, copy = targets
         note = ""
-        if table is not None:
-            write_table(contacts.columns(), table)
-        if measured is not None:
-            write_table(measures, measured)
-            stride_path = measured.with_suffix(f".strides{measured.suffix}")
+        if table_path is not None:
+            write_table(contacts.columns(), table_path)
+        if gait_path is not None:
+            write_table(measures, gait_path)
+            stride_path = gait_path.with_suffix(f".strides{gait_path.suffix}")
             write_table(strides(contacts, recording), stride_path)
-            targets = (*targets, stride_path)
-        if span is not None:
-            write_segments(contacts.segmentation(), span)
-        if copy is not None:
-            several = len(recording.provenance.people) > 1
-            subject = recording.provenance.person if several else None
-            n_added = write_events(path, copy, contacts.times, contacts.names, subject=subject)
+            written.append(stride_path)
+        if label_path is not None:
+            write_segments(contacts.segmentation(), label_path)
+        if c3d_path is not None:
+            # In a file of several people, an event names the person it belongs to.
+            source = recording.provenance
+            subject = source.person if len(source.people) > 1 else None
+            n_added = write_events(path, c3d_path, contacts.times, contacts.names, subject=subject)
             note = f"{format_count(n_added, 'event')} added to those in the file"
         if not quiet:
-            _show(path, contacts, measures, [*targets], note)
+            _show(path, contacts, measures, written, note)
 
     for path, *targets in zip(batch.paths, tables, gaits, spans, copies, strict=True):
         batch.run_each_person(path, read_options, work, *targets)
     batch.exit()
 
 
-def _show(path: Path, events: Events, gait: Columns, written: list[Path | None], note: str) -> None:
+def _count_file_frames(
+    events: Events, recording: Motion | Signals, path: Path, options: ReadOptions
+) -> Events:
+    """Return events of analog channels of a C3D with the frames of its points."""
+    if recording.provenance.format != "C3D" or isinstance(recording, Motion) or options.fps:
+        return events
+    file = parse_c3d(load(path))
+    return replace(events, n_frames=len(file.points), fps=file.rate) if file.labels else events
+
+
+def _show(path: Path, events: Events, gait: Columns, written: list[Path], note: str) -> None:
     """Print the number of events, the gait measures, and the note if there is one."""
     console = Console(highlight=False)
     console.print(Text.assemble((path.name, "bold"), f"  {format_count(len(events), 'event')}"))

@@ -16,14 +16,21 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from kineme._util.files import CORRECTED, PAGES, PICTURES, add_person, make_person_suffix
+from kineme._util.files import (
+    CORRECTED,
+    PAGES,
+    PICTURES,
+    add_person,
+    make_absolute,
+    make_person_suffix,
+)
 from kineme.cli.help import INPUT, RECORDINGS, option
 from kineme.cli.options import expand_read_options
 from kineme.cli.terminal import format_line, print_error, print_skipped, show_progress
@@ -317,9 +324,17 @@ def check_suffixes(
     """Raise typer.BadParameter for results whose suffix names no format that can be written."""
     from kineme.labels import list_written_suffixes
 
-    for path, suffixes in ((table, list_written_suffixes()), (picture, PICTURES), (page, PAGES)):
-        if path is not None and path.suffix.lower() not in suffixes:
-            raise typer.BadParameter(f"{path}: the suffix must be one of {', '.join(suffixes)}")
+    check_suffix("", table, list_written_suffixes())
+    check_suffix("", picture, PICTURES)
+    check_suffix("", page, PAGES)
+
+
+def check_suffix(option: str, path: Path | None, suffixes: Collection[str]) -> None:
+    """Raise typer.BadParameter, which names the option, for a path with another suffix."""
+    if path is not None and path.suffix.lower() not in suffixes:
+        raise typer.BadParameter(
+            f"{path}: the suffix must be one of {', '.join(suffixes)}", param_hint=option or None
+        )
 
 
 def make_parent_folder(path: Path) -> None:
@@ -331,11 +346,6 @@ def make_parent_folder(path: Path) -> None:
         raise WriteError(path, reason) from error
     if not os.access(path.parent, os.W_OK):
         raise WriteError(path, f"no permission to write to the folder {path.parent}")
-
-
-def make_absolute(path: Path) -> Path:
-    """Return the absolute path without resolving links, so that given names are kept."""
-    return Path(os.path.abspath(path))  # noqa: PTH100
 
 
 def _is_folder(path: Path) -> bool:

@@ -14,6 +14,7 @@ from kineme.cli.files import (
     Files,
     Recursive,
     SegmentTable,
+    check_suffix,
     check_target_folder,
     check_writable,
 )
@@ -24,6 +25,7 @@ from kineme.cli.terminal import exit_on_error, show_progress
 from kineme.errors import ParameterError
 from kineme.formats import read_motion
 from kineme.formats.options import ReadOptions
+from kineme.formats.registry import list_motion_suffixes
 from kineme.methods.segmenter import SegmentOptions
 
 if TYPE_CHECKING:
@@ -69,6 +71,7 @@ def graph(
     """
     batch = Batch(files, recursive=recursive, quiet=quiet)
     tables = batch.tables("--segments", segments, read_options.person or "")
+    check_suffix("--output", output, (".json",))
     with exit_on_error(output):
         check_target_folder(output)
         check_writable(output, plot)
@@ -157,6 +160,7 @@ def synthesize(
     """
     if (actions is None and path is None) == (duration is None):
         raise typer.BadParameter("give --actions, --path or both, or --duration")
+    check_suffix("--output", output, list_motion_suffixes())
     with exit_on_error(graph), show_progress(output.name, quiet=quiet) as stage:
         stage("reading")
         from kineme import synthesis

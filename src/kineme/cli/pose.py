@@ -9,10 +9,10 @@ from typing import Annotated, Any
 import typer
 
 from kineme._util.checks import format_count
-from kineme.cli.files import Batch, Files, Recursive, make_parent_folder
+from kineme.cli.files import Batch, Files, Recursive, check_suffix, make_parent_folder
 from kineme.cli.help import METHOD, option, output_option
 from kineme.cli.options import Json, Quiet
-from kineme.cli.terminal import print_error
+from kineme.cli.terminal import exit_on_error, print_error
 from kineme.errors import ParameterError, ReadError
 
 
@@ -61,15 +61,19 @@ def pose(
     from kineme.formats.registry import is_video
     from kineme.pose.estimators import choose_estimator
 
-    try:
-        choose_estimator(estimator)
-    except ParameterError as error:
-        raise typer.BadParameter(str(error), param_hint="--estimator") from error
+    with exit_on_error():
+        try:
+            choose_estimator(estimator)
+        except ParameterError as error:
+            raise typer.BadParameter(str(error), param_hint="--estimator") from error
     batch = Batch(files, recursive=recursive, quiet=quiet)
     batch.paths = [path for path in batch.paths if is_video(path) or path in files]
     if not batch.paths:
         print_error(f"there is no video in {', '.join(map(str, files))}")
-    for path, table in zip(batch.paths, batch.targets("--output", output, ".parquet"), strict=True):
+    tables = batch.targets("--output", output, ".parquet")
+    for table in tables:
+        check_suffix("--output", table, (".parquet",))
+    for path, table in zip(batch.paths, tables, strict=True):
         with batch.catch_errors(path):
             if table is not None:
                 make_parent_folder(table)

@@ -28,7 +28,7 @@ from kineme._util.checks import check_path, is_one_of
 from kineme.clips import RootMotionMode, TargetName
 from kineme.clips.shaping import Shape
 from kineme.errors import ParameterError
-from kineme.formats.registry import Format, find_writer, supported_formats
+from kineme.formats.registry import Format, find_writer, list_motion_suffixes
 
 LONGEST = 63
 """Longest name in characters, the limit of Blender."""
@@ -251,7 +251,6 @@ def _find_format(suffix: str | None) -> Format | None:
         return None
     writer = find_writer(f".{suffix}")
     if writer is None:
-        suffixes = sorted(s for each in supported_formats() if each.write for s in each.suffixes)
-        names = ", ".join(name.removeprefix(".") for name in suffixes)
+        names = ", ".join(name.removeprefix(".") for name in list_motion_suffixes())
         raise ParameterError(f"format is {suffix!r:.60}: motions are written as {names}")
     return writer

@@ -192,15 +192,15 @@ def _compute_path(motion: Motion, carry: Carry | None) -> tuple[Floats, Floats, 
 
 
 def _trace_hips(motion: Motion) -> tuple[Floats, Floats, Floats]:
-    """Return the smoothed path of the hips, like `_compute_path`."""
+    """Return turn, path and path without turn of the hips, smoothed; see `_compute_path`."""
     path = _smooth(motion.positions[:, motion.skeleton.carrier] * [1, 0, 1], motion.fps)
     path -= path[0].copy()
     turns = _smooth(_measure_turns(motion), motion.fps)
     # Turn each step back by the mean turn of its two frames.
     back = rot.rotate_about_y(-(turns[1:] + turns[:-1]) / 2)
-    straight = np.zeros_like(path)
-    np.cumsum(rot.rotate(back, np.diff(path, axis=0)), axis=0, out=straight[1:])
-    return turns, path, straight
+    without_turn = np.zeros_like(path)
+    np.cumsum(rot.rotate(back, np.diff(path, axis=0)), axis=0, out=without_turn[1:])
+    return turns, path, without_turn
 
 
 def _measure_turns(motion: Motion) -> Floats:

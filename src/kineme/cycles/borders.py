@@ -139,12 +139,14 @@ def make_run(features: Features, borders: Floats) -> Run:
 def shift_to_common_phase(runs: list[Run]) -> list[Run]:
     """Return the runs of one cluster with refined borders at a common phase.
 
-    The features of all runs have equal dims.
+    The features of all runs have equal dims. Steps are those of the module docstring.
     """
-    runs = _turn_borders(runs)
+    # Step 1.
+    runs = _align_phases(runs)
     n_inner = sum(run.n - 1 for run in runs)
-    if n_inner < 2:
+    if n_inner < 2:  # a single border would be its own template
         return runs
+    # Steps 2 and 4.
     for step, window in enumerate(WINDOWS):
         # Shares of a cycle before and after a border, symmetric about 0.
         offsets = np.arange(-round(window * POINTS), round(window * POINTS) + 1) / POINTS
@@ -152,18 +154,19 @@ def shift_to_common_phase(runs: list[Run]) -> list[Run]:
         # Halved with each step: the windows become narrower.
         reach = FARTHEST / 2**step
         moved = [_move_borders(run, template, weights, offsets, reach) for run in runs]
-        # The mean move, in cycles: the template must not wander.
+        # Subtract the mean move in cycles, so that the common phase stays.
         drift = float(np.mean(np.concatenate([
             (new.borders - old.borders)[1:-1] / old.period
             for new, old in zip(moved, runs, strict=True)
         ])))  # fmt: skip
         runs = [replace(run, borders=run.borders - drift * run.period) for run in moved]
-    runs = _extend_ends(runs)
+    runs = _average_end_borders(runs)
+    # Step 3.
     shift = _measure_landmark_shift(runs)
     return [replace(run, borders=run.borders + shift * run.period) for run in runs]
 
 
-def _extend_ends(runs: list[Run]) -> list[Run]:
+def _average_end_borders(runs: list[Run]) -> list[Run]:
     """Return runs with end borders averaged with those predicted by the usual length."""
     # The first and the last repetition of a run are left out: they end at the borders in question.
     inner_lengths = [np.diff(run.borders)[1:-1] for run in runs]
@@ -222,8 +225,8 @@ def _measure_landmark_shift(runs: list[Run]) -> float:
     return float(min(places, key=abs, default=0.0))
 
 
-def _turn_borders(runs: list[Run]) -> list[Run]:
-    """Return the runs with borders at approximately one phase."""
+def _align_phases(runs: list[Run]) -> list[Run]:
+    """Return the runs with borders moved to approximately one phase."""
     repeated = [run for run in runs if run.n > 1]
     if len(repeated) < 2:
         return runs

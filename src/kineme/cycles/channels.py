@@ -29,7 +29,7 @@ from functools import partial
 import numpy as np
 
 from kineme._util import rotations as rot
-from kineme._util.arrays import Floats
+from kineme._util.arrays import Floats, normalize_vectors
 from kineme._util.checks import as_texts
 from kineme.cycles.events import find_foot, mark_stance
 from kineme.cycles.joints import (
@@ -41,7 +41,6 @@ from kineme.cycles.joints import (
     landmarks,
     measure_angle,
     measure_turn,
-    normalize,
     remove_along,
 )
 from kineme.errors import EndEffectorError, MotionError, ParameterError
@@ -317,7 +316,7 @@ def _measure_flexion(
     """Return the flexion of a knee about its axis, or that of the hips if it hardly moves."""
     hip, knee, ankle = (places[:, joint] for joint in chain)
     # Remove the component along the leg to get an axis at right angles to it.
-    to_left = normalize(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
+    to_left = normalize_vectors(remove_along(places[:, hips[0]] - places[:, hips[1]], ankle - hip))
     axis = find_hinge_axis(hip, knee, ankle, places[:, thigh])
     # Cosine of the fitted axis with the line of the hips, in each frame.
     alike = np.zeros(1) if axis is None else (axis * to_left).sum(axis=1)

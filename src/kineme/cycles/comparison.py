@@ -156,8 +156,8 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     -------
     dict of str to array
         Columns: ``group``, ``measure`` as in `Cycles.summary`; ``first_n``, ``first_mean``,
-        ``first_sd``, and the same for ``second``; ``difference`` with its bounds ``low`` and
-        ``high``, nan if a session has fewer than two cycles.
+        ``first_sd``, and the same for ``second``; ``difference``, second minus first,
+        and its 95 % bounds ``low`` and ``high``, nan if a session has fewer than two cycles.
 
     Raises
     ------
@@ -178,11 +178,11 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     _check_comparable(first, second)
     summaries = (each.summary(ends=ends) for each in (first, second))
     compared = _join_sessions(("group", "measure"), *summaries)
-    # Phase differences take the shorter way round the circle; bounds move along.
+    # Take the shorter of both differences of a phase; its bounds shift by the same amount.
     difference = compared["difference"]
-    turned = np.where([is_phase(measure) for measure in compared["measure"].tolist()],
-                      compute_phase_differences(difference) - difference, 0.0)  # fmt: skip
-    return compared | {name: compared[name] + turned for name in ("difference", "low", "high")}
+    shift = np.where([is_phase(measure) for measure in compared["measure"].tolist()],
+                     compute_phase_differences(difference) - difference, 0.0)  # fmt: skip
+    return compared | {name: compared[name] + shift for name in ("difference", "low", "high")}
 
 
 def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Columns:

@@ -122,7 +122,8 @@ class Events:
         # The last of several events in one frame names the segment; cuts must be distinct.
         starts = {frame: text for frame, text in pairs if 0 <= frame < self.n_frames}
         if not starts:
-            raise ParameterError(f"there is no event {name or ''}".rstrip())
+            known = join_names(sorted(set(self.names.tolist()))) or "none"
+            raise ParameterError(f"no event {name or 'in the recording'}; there are: {known}")
         # Before the first event there is a transition without a label.
         starts = {0: "", **starts}
         cuts = [*sorted(starts), self.n_frames]
@@ -239,17 +240,21 @@ def find_marks(recording: Motion | Signals, name: str) -> Floats:
 
 
 def _warn_missing_points(motion: Motion, sources: Mapping[str, str]) -> None:
-    """Warn if the contacts of feet were found without markers of heel and toe."""
+    """Warn if a foot has no heel or no toe; ``sources`` are the joints used, by side."""
     joints, parents = landmarks(motion), motion.skeleton.parents
-    toes = [joints.get(f"{side}_toe", -1) for side in sources]
-    # In a skeleton with bones the foot ends in a toe, and its ankle serves as the heel.
-    has_bones = [parents[toe] for toe in toes] == [joints.get(f"{side}_ankle") for side in sources]
-    has_heels = has_bones or all(f"{side}_heel" in joints for side in sources)
-    missing = ["heel"] * (not has_heels) + ["toe"] * (min(toes) < 0)
+
+    def has_heel(side: str) -> bool:
+        toe, ankle = joints.get(f"{side}_toe"), joints.get(f"{side}_ankle")
+        # In a skeleton the toe is a child of the ankle, which serves as the heel.
+        is_bone = toe is not None and ankle is not None and parents[toe] == ankle
+        return is_bone or f"{side}_heel" in joints
+
+    missing = [f"{side} heel" for side in sources if not has_heel(side)]
+    missing += [f"{side} toe" for side in sources if f"{side}_toe" not in joints]
     if missing:
         warn(
-            f"no {' and no '.join(missing)} was found on both sides: contacts are from "
-            f"{', '.join(sources.values())}, and stances may be 0.1 s too short. {RENAME}."
+            f"{join_names(missing)} not found: contacts are from {', '.join(sources.values())}, "
+            f"and stances may be 0.1 s too short. {RENAME}."
         )
 
 

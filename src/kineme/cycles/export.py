@@ -33,6 +33,8 @@ NAME_OF_MATLAB = 63
 """Longest name in MATLAB, in characters."""
 DIGITS = 15
 """Significant digits in CSV and Excel."""
+TABLE_SUFFIXES = (".csv", ".parquet")
+"""Suffixes of tables such as those of events and summaries."""
 SHEET_ROWS = 1_048_575
 """Largest number of rows in an Excel sheet below the header."""
 
@@ -106,7 +108,7 @@ def write_table(columns: Columns, path: str | PathLike[str]) -> None:
         with open_new_text(target) as file:
             write_rows(file, [*columns], zip(*map(_format_cells, columns.values()), strict=True))
     else:
-        raise WriteError(target, "must end in .csv or .parquet")
+        raise WriteError(target, f"must end in {' or '.join(TABLE_SUFFIXES)}")
 
 
 def _format_cells(column: np.ndarray[Any, Any]) -> list[Any]:

@@ -32,7 +32,7 @@ from dataclasses import replace
 import numpy as np
 
 from kineme._util import rotations as rot
-from kineme._util.arrays import Floats
+from kineme._util.arrays import Floats, normalize_vectors
 from kineme.errors import EndEffectorError
 from kineme.features import PARTS, end_effectors
 from kineme.features.canonical import find_limbs
@@ -208,9 +208,9 @@ def _find_pelvis(places: Floats, marker: Mapping[str, int]) -> tuple[Floats, Flo
 
 def _orient_pelvis(across: Floats, ahead: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the unit vectors left, ahead and up, from the vectors of `_find_pelvis`."""
-    left = normalize(across)
+    left = normalize_vectors(across)
     # Ahead without its share of left.
-    forward = normalize(remove_along(ahead, left))
+    forward = normalize_vectors(remove_along(ahead, left))
     return left, forward, np.cross(forward, left)
 
 
@@ -260,8 +260,8 @@ def _find_knee(
     # The same point as each body sees it, averaged.
     at = (upper[0] @ found[:3] + upper[1] + lower[0] @ found[3:] + lower[1]) / 2
     # Leftward axis in the frame of the thigh, averaged over time, then turned back with the thigh.
-    axis = normalize(
-        np.einsum("fji,fj->fi", upper[0], normalize(to_left)).mean(axis=0, keepdims=True)
+    axis = normalize_vectors(
+        np.einsum("fji,fj->fi", upper[0], normalize_vectors(to_left)).mean(axis=0, keepdims=True)
     )[0]
     axis = upper[0] @ axis
     # How far the middle of hip and ankle lies beside the point, along the axis.
@@ -336,7 +336,7 @@ def measure_turn(axis: Floats, first: Floats, second: Floats) -> Floats:
     """
     flat = [remove_along(vectors, axis) for vectors in (first, second)]
     # The triple product with the unit axis: the sine with its sign.
-    sine = (np.cross(flat[0], flat[1]) * normalize(axis)).sum(axis=-1)
+    sine = (np.cross(flat[0], flat[1]) * normalize_vectors(axis)).sum(axis=-1)
     cosine = (flat[0] * flat[1]).sum(axis=-1)
     return np.asarray(np.degrees(np.arctan2(sine, cosine)))
 
@@ -350,8 +350,8 @@ def find_hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats)
     None if the hinge hardly moves.
     """
     # Directions of thigh and shank.
-    along, limb = normalize(joint - upper), normalize(lower - joint)
-    aside = normalize(remove_along(beside - joint, along))
+    along, limb = normalize_vectors(joint - upper), normalize_vectors(lower - joint)
+    aside = normalize_vectors(remove_along(beside - joint, along))
     # (frames, 3, 3): rows are the axes of the upper limb; the shank is then given in them.
     frame = np.stack([aside, np.cross(along, aside), along], axis=1)
     seen = np.einsum("fij,fj->fi", frame, limb)
@@ -365,14 +365,8 @@ def find_hinge_axis(upper: Floats, joint: Floats, lower: Floats, beside: Floats)
 
 def remove_along(vectors: Floats, direction: Floats) -> Floats:
     """Return vectors without their component along a direction."""
-    direction = normalize(direction)
+    direction = normalize_vectors(direction)
     return np.asarray(vectors - (vectors * direction).sum(axis=-1, keepdims=True) * direction)
-
-
-def normalize(vectors: Floats) -> Floats:
-    """Return unit vectors; vectors of length 0 stay 0."""
-    # The floor avoids a division by 0; a vector of length 0 stays 0.
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
 
 
 def cardan(rotations: Floats) -> Floats:

@@ -219,7 +219,7 @@ def _check_inputs(
             )
     if len(lists) != len(items):
         raise ParameterError(
-            f"beside= takes a list of signals for each of {len(items)} recordings, not {len(lists)}"
+            f"beside= takes one list of signals per recording: {len(items)}, not {len(lists)}"
         )
     if not 2 <= as_indices([points], "points")[0] <= MOST_POINTS:
         raise ParameterError(f"points is {points}: give 2 to {MOST_POINTS}")

@@ -403,8 +403,7 @@ def run_jobs(jobs: Sequence[Job], processes: int) -> Iterator[tuple[Job, JobResu
 
 def _try_job(job: Job) -> JobResult:
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KinemeWarning)
+        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
             return run_job(job)
     except (KinemeError, ValueError, ArithmeticError, MemoryError) as error:
         return _describe_failure(error)

@@ -3,25 +3,15 @@
 Both are label files of any format (`kineme.labels`). They are compared at 30 Hz, as published, or
 at the result's rate if that is lower. Frames before the first and after the last action of the
 truth do not count.
-
-A truth may also be the annotations of CMU subject 86: fourteen trials, each with three annotators.
-At another rate than 120 Hz, mark m is m × rate / 120, with halves rounded up, as in the evaluation
-of Vögele, Krüger, Klein 2014. There frames count from 1, here from 0.
 """
 
 from __future__ import annotations
 
-import re
 import warnings
 from dataclasses import replace
-from math import ceil, floor, isfinite
-from os import PathLike
+from math import floor, isfinite
 from pathlib import Path
 
-import numpy as np
-
-from kineme._util.json import decode_json
-from kineme.datasets.cmu import TRIAL_FPS, Action, read_actions
 from kineme.errors import KinemeWarning, ParameterError, ReadError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.score import compare_with_truth, compute_scores
@@ -31,7 +21,6 @@ from kineme.evaluation.truth import (
     add_repetitions,
     check_length,
     make_truth,
-    round_half_up,
 )
 from kineme.labels.registry import read_content
 from kineme.labels.spans import Labels, as_segmentation, convert_clock_times
@@ -141,62 +130,3 @@ def choose_comparison_rate(found: Segmentation) -> tuple[int, float]:
 def score(truth: Truth, found: Segmentation) -> dict[str, float]:
     """Return all scores, for a truth at the rate of comparison."""
     return compute_scores(compare_with_truth(truth, found).without_silence())
-
-
-def read_trials(path: str | PathLike[str], *, fps: float = 30.0) -> dict[str, Truth]:
-    """Read the truth of each trial by name, at a frame rate.
-
-    The file is ``annotations.json`` or the authors' ``mocap.txt``. Raise ReadError if it is
-    neither, or if marks run backwards, apart from known errors. A KinemeWarning names each
-    corrected row.
-    """
-    found = {}
-    for name, rows in read_actions(path).items():
-        try:
-            found[name] = _find_trial_truth(rows, fps)
-        except ParameterError as error:
-            raise ReadError(path, f"trial {name}: {error}") from error
-    return found
-
-
-def read_trial(path: str | PathLike[str], name: str, *, fps: float) -> Truth:
-    """Read the truth of one trial; known errors are corrected without a warning.
-
-    Raise ReadError if the file or the trial does not exist.
-    """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KinemeWarning)
-        trials = read_trials(path, fps=fps)
-    if name not in trials:
-        names = ", ".join(trials)
-        raise ReadError(path, f"contains no trial {name!r}: name one of {names} with --trial")
-    return trials[name]
-
-
-def is_annotation_file(path: Path) -> bool:
-    """Return whether a file is ``annotations.json`` or ``mocap.txt``, judged by its content."""
-    suffix = path.suffix.lower()
-    if suffix not in (".txt", ".json") or not path.is_file():
-        return False
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-        if suffix == ".txt":
-            return re.match(r"\s*\S*\b\d+_\d+\b", text) is not None
-        content = decode_json(text, path)
-    except (OSError, ValueError, ReadError):
-        return False
-    return isinstance(content, dict) and "trials" in content
-
-
-def _find_trial_truth(rows: list[Action], fps: float) -> Truth:
-    """Return the actions of a trial at a rate; each row has three marks of its end."""
-    earliest, mean, latest = (
-        # - 1: marks count frames from 1. The last row ends with the recording and has no border.
-        round_half_up(np.array([getattr(row, mark) for row in rows[:-1]]) * (fps / TRIAL_FPS)) - 1
-        for mark in ("earliest", "mean", "latest")
-    )
-    # Every fourth of N frames, starting with the first, are ceil(N / 4) frames.
-    frames = ceil(rows[-1].latest * fps / TRIAL_FPS)
-    return Truth(
-        tuple(row.label for row in rows), earliest, mean=mean, latest=latest, frames=frames, fps=fps
-    )

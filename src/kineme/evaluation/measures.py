@@ -228,15 +228,18 @@ def count_errors(compared: Comparison) -> tuple[float, float] | None:
     return (float(np.mean(errors)), float(np.mean(np.array(errors) == 0))) if errors else None
 
 
-def _count_hits(true: Sequence[Run], found: Sequence[Run], least: float) -> int:
-    """Count the true segments that are found."""
+def _count_hits(true: Sequence[Run], found: Sequence[Run], min_overlap: float) -> int:
+    """Count the true segments that are the best match of a found one of their class.
+
+    ``min_overlap`` is the smallest intersection over union, 0 to 1.
+    """
     # Columns of the runs: label, start, stop.
     labels, starts, stops = np.array(true).T
     hits: set[int] = set()
     for label, start, stop in found:
         overlap = np.where(labels == label, _measure_overlaps(start, stop, starts, stops), 0.0)
         best = int(np.argmax(overlap))
-        if overlap[best] > 0 and overlap[best] >= least:
+        if overlap[best] > 0 and overlap[best] >= min_overlap:
             hits.add(best)  # a set: each true segment counts once
     return len(hits)
 

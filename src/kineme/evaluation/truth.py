@@ -16,12 +16,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Ints
-from kineme._util.checks import as_texts
+from kineme._util.checks import as_floats, as_texts
 from kineme.errors import ParameterError
 from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
@@ -54,7 +55,7 @@ class Labelling:
     Raises
     ------
     ParameterError
-        Borders do not start at 0 or do not ascend, or the number of labels differs.
+        Borders are not a list of frames from 0 on that ascend, or the number of labels differs.
 
     Examples
     --------
@@ -69,13 +70,14 @@ class Labelling:
 
     def __post_init__(self) -> None:
         check_rate(self.fps)
-        object.__setattr__(self, "borders", np.asarray(self.borders, np.int64))
-        object.__setattr__(self, "labels", tuple(map(str, self.labels)))
-        if self.borders.size < 2 or self.borders[0] != 0:
+        frames = as_floats(self.borders, "borders")
+        if frames.ndim != 1 or len(frames) < 2 or frames[0] != 0 or not np.isfinite(frames).all():
             raise ParameterError(
-                "borders must begin with 0 and have at least two frames, not "
-                f"{self.borders.ravel()[:3].tolist()}"
+                "borders must be a list of frames that begins with 0 and has at least two, not "
+                f"{frames.tolist()!r:.60}"
             )
+        object.__setattr__(self, "borders", frames.astype(np.int64))
+        object.__setattr__(self, "labels", tuple(map(str, self.labels)))
         # Report the first fault, if any.
         for i in np.flatnonzero(np.diff(self.borders) <= 0)[:1]:
             before, after = self.borders[i : i + 2]
@@ -92,8 +94,8 @@ class Labelling:
     ) -> Labelling:
         """Create a labelling from cuts; by default each interval has a unique label."""
         # 0 and the length are also borders.
-        borders = np.concatenate([[0], np.asarray(cuts, np.int64), [frames]])
-        names = range(borders.size - 1) if labels is None else labels
+        borders: Any = [0, *np.atleast_1d(as_floats(cuts, "cuts")).tolist(), frames]
+        names = range(len(borders) - 1) if labels is None else labels
         return cls(borders, tuple(map(str, names)), fps)
 
     @classmethod
@@ -238,9 +240,10 @@ class Truth:
             frames = np.asarray(getattr(self, name), np.int64)
             object.__setattr__(self, name, frames)
             if frames.shape != (len(self.labels) - 1,):
+                shape = " x ".join(map(str, frames.shape))
                 raise ParameterError(
-                    f"{len(self.labels)} actions have {len(self.labels) - 1} borders between "
-                    f"them, not {frames.size} ({name})"
+                    f"{name} has {shape} borders, but {len(self.labels)} actions have "
+                    f"{len(self.labels) - 1} between them"
                 )
         # Report the first border whose mean is outside the span.
         for i in np.flatnonzero((self.mean < self.earliest) | (self.latest < self.mean))[:1]:

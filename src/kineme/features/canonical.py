@@ -35,7 +35,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.arrays import Floats
+from kineme._util.arrays import Floats, normalize_vectors
 from kineme.errors import MotionError
 from kineme.features import mirroring
 from kineme.features.effectors import PARTS, Names, end_effectors
@@ -180,17 +180,17 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     hips.
     """
     pelvis = (joints["left_hip"] + joints["right_hip"]) / 2
-    hips = _normalize_vectors(joints["left_hip"] - joints["right_hip"])
+    hips = normalize_vectors(joints["left_hip"] - joints["right_hip"])
     shoulders, sides = hips, dict(joints)
     # Without shoulders, the chest is on the line from pelvis to head, at the canonical share.
     chest = pelvis + TRUNK / (TRUNK + NECK) * (joints["head"] - pelvis)
     if {"left_shoulder", "right_shoulder"} <= joints.keys():
-        shoulders = _normalize_vectors(joints["left_shoulder"] - joints["right_shoulder"])
+        shoulders = normalize_vectors(joints["left_shoulder"] - joints["right_shoulder"])
         chest = (joints["left_shoulder"] + joints["right_shoulder"]) / 2
     else:
         sides |= {"left_shoulder": chest, "right_shoulder": chest}
     # From here on, points are relative to the middle of the hips.
-    trunk = TRUNK * _normalize_vectors(chest - pelvis)
+    trunk = TRUNK * normalize_vectors(chest - pelvis)
     legs = [
         sign * HIP * hips
         + _compute_limb(sides, (f"{side}_hip", f"{side}_knee", f"{side}_ankle"), LEG)
@@ -204,7 +204,7 @@ def compute_canonical_poses(joints: Joints, fps: float) -> Floats:
     ]
     # (frames, 5, 3) in the order of the end effectors: ankles, head, wrists.
     ends = np.stack(
-        [*legs, trunk + NECK * _normalize_vectors(joints["head"] - chest), *arms], axis=1
+        [*legs, trunk + NECK * normalize_vectors(joints["head"] - chest), *arms], axis=1
     )
     ground = np.minimum(joints["left_ankle"][:, 1], joints["right_ankle"][:, 1])
     leg = _measure_legs(joints)
@@ -246,7 +246,7 @@ def _compute_limb(
     top, end = joints[names[0]], joints[names[2]]
     if names[1] in joints:
         middle = joints[names[1]]
-        return bones[0] * _normalize_vectors(middle - top) + bones[1] * _normalize_vectors(
+        return bones[0] * normalize_vectors(middle - top) + bones[1] * normalize_vectors(
             end - middle
         )
     # Without a middle joint, the distance of end and top tells how far the limb is extended (1:
@@ -254,7 +254,7 @@ def _compute_limb(
     reach = np.linalg.norm(end - top, axis=1, keepdims=True)
     # A high quantile is robust to tracking errors, unlike the maximum.
     extension = np.minimum(reach / max(float(np.quantile(reach, _STRAIGHT)), _TINY), 1.0)
-    vector: Floats = sum(bones) * extension * _normalize_vectors(end - top)
+    vector: Floats = sum(bones) * extension * normalize_vectors(end - top)
     return vector
 
 
@@ -271,12 +271,6 @@ def _measure_legs(joints: Joints) -> float:
             bones = np.linalg.norm(knee - hip, axis=1) + np.linalg.norm(ankle - knee, axis=1)
             lengths.append(float(np.median(bones)))
     return max(float(np.mean(lengths)), _TINY)
-
-
-def _normalize_vectors(vectors: Floats) -> Floats:
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    unit: Floats = vectors / np.maximum(lengths, _TINY)
-    return unit
 
 
 def matching_features(
@@ -355,7 +349,7 @@ def compute_features_and_poses(
     stacked = stack(shown, round_offsets(OFFSETS_S, POSE_FPS))[::2]
     mean, axes = load_basis()
     # Directions of stacked poses from the mean, in the axes.
-    features = _normalize_vectors((stacked - mean) @ axes).astype(np.float32)
+    features = normalize_vectors((stacked - mean) @ axes).astype(np.float32)
     for start, stop in at_rate.gaps:
         # Convert gaps from 30 Hz to 15 Hz, rounded up to the first kept frame inside.
         features[(start + 1) // 2 : (stop + 1) // 2] = 0.0
@@ -386,7 +380,7 @@ def mirror_features(features: NDArray[np.floating]) -> NDArray[np.float32]:
     >>> bool(np.median(errors) < 0.15)
     True
     """
-    return _normalize_vectors(features @ _make_mirror_matrix()).astype(np.float32)
+    return normalize_vectors(features @ _make_mirror_matrix()).astype(np.float32)
 
 
 @cache

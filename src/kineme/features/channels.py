@@ -138,32 +138,35 @@ def compute_statistics(
     window: float,
     bands: tuple[float, ...],
 ) -> list[Floats]:
-    """Return the statistics of each of these mixtures of the channels.
+    """Return `compute_channel_statistics` of each mixture of the channels.
 
     Bands are filtered one at a time, to limit the memory for long recordings.
     """
     # Windows around each sample, cut at the ends.
-    at, width = choose_frames(len(channels), fps, rate), max(1, round(window * fps))
-    starts = np.clip(at - width // 2, 0, len(channels))
-    stops = np.clip(at - width // 2 + width, 0, len(channels))
-    # None stands for the unfiltered channels, whose means are taken.
+    centres, width = choose_frames(len(channels), fps, rate), max(1, round(window * fps))
+    starts = np.clip(centres - width // 2, 0, len(channels))
+    stops = np.clip(centres - width // 2 + width, 0, len(channels))
+    # `bands` holds edges: each pair of neighbours is a passband. None: unfiltered, for the means.
     highest = NYQUIST * fps
-    edges = [None, *((low, min(high, highest)) for low, high in pairwise(bands) if low < highest)]
-    groups = []
-    for edge in edges:
-        band = channels
-        if edge is not None:
+    passbands = [
+        None,
+        *((low, min(high, highest)) for low, high in pairwise(bands) if low < highest),
+    ]
+    statistics = []
+    for passband in passbands:
+        filtered = channels
+        if passband is not None:
             # Padding: three periods of the lowest frequency, but less than the recording.
-            padding = min(len(channels) - 1, int(3 * fps / edge[0]))
-            band = filter_band(channels, fps, *edge, padding)
-        group = []
+            padding = min(len(channels) - 1, int(3 * fps / passband[0]))
+            filtered = filter_band(channels, fps, *passband, padding)
+        of_mixtures = []
         for chosen, reduction in mixtures:
-            mixed = band if len(chosen) == channels.shape[1] else band[:, chosen]
+            mixed = filtered if len(chosen) == channels.shape[1] else filtered[:, chosen]
             mixed = mixed if reduction is None else reduction.apply(mixed)
-            group.append(compute_means(mixed, starts, stops, squared=edge is not None))
-        groups.append(group)
+            of_mixtures.append(compute_means(mixed, starts, stops, squared=passband is not None))
+        statistics.append(of_mixtures)
     # One array per mixture, with means and bands side by side.
-    return [np.hstack(each) for each in zip(*groups, strict=True)]
+    return [np.hstack(each) for each in zip(*statistics, strict=True)]
 
 
 def choose_frames(frames: int, fps: float, rate: float) -> Ints:
@@ -278,7 +281,7 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     Raises
     ------
     ParameterError
-        The cutoff is not below half of the sampling rate.
+        The cutoff is not between 0 and half of the sampling rate.
 
     Examples
     --------
@@ -289,9 +292,11 @@ def emg_envelope(values: ArrayLike, fps: float, *, cutoff: float = CUTOFF) -> ND
     >>> bool(envelope[1500] > 10 * envelope[500])
     True
     """
-    if not 0 < cutoff < fps / 2:
+    if not cutoff > 0:
+        raise ParameterError(f"the cutoff must be above 0 Hz, not {cutoff:g} Hz")
+    if not cutoff < fps / 2:
         raise ParameterError(
-            f"a cutoff of {cutoff:g} Hz needs signals of more than {2 * cutoff:g} Hz, not {fps:g}"
+            f"a cutoff of {cutoff:g} Hz needs a rate above {2 * cutoff:g} Hz, not {fps:g} Hz"
         )
     raw = np.asarray(values, np.float64)
     rectified = np.abs(raw - raw.mean(axis=0))

@@ -182,7 +182,7 @@ def _find_named(skeleton: Skeleton, names: Names | None) -> dict[str, int]:
 
 
 def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
-    """Return the end effectors whose names are known; of the head, its crown if there is one."""
+    """Return the end effectors with known names; for the head, its crown if it has one."""
     named = find_joints(skeleton.names, _NAMED, single=True)
     found = {part: points[0] for part, points in named.items()}
     if "head" in found:
@@ -192,7 +192,7 @@ def _find_by_names(skeleton: Skeleton) -> dict[str, int]:
             if parent == found["head"]
             and (joint in skeleton.end_sites or has_word(skeleton.names[joint], CROWN))
         ]
-        # The crown is the farthest of several ends; without one the head joint itself.
+        # The crown is the end farthest from the head joint, which stands in if there is none.
         found["head"] = max(
             leaves,
             key=lambda j: float(np.linalg.norm(skeleton.offsets[j])),

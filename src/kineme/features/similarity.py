@@ -94,7 +94,7 @@ def compare_frames_of_motion(motion: Motion, *, effectors: Names | None = None) 
         values /= BODY_SCALE * measure_body_size(motion, ends)
     except MotionError:
         motion = resample(motion, min(motion.fps, 3 * RATE))  # distances are many
-        values = _measure_distances(motion)
+        values = _scale_distance_features(motion)
     for start, stop in motion.gaps:
         values[start:stop] = np.nan
     return _stack_levels(values, motion.fps, motion.duration)
@@ -130,8 +130,11 @@ def compare_frames_of_signal(values: ArrayLike, fps: float) -> SimilarityMatrix:
     return _stack_levels(_standardise(means), fps / averaged, len(signal) / fps)
 
 
-def _measure_distances(motion: Motion) -> Floats:
-    """Return the features of a motion without a body, in units of distance; arbitrary in gaps."""
+def _scale_distance_features(motion: Motion) -> Floats:
+    """Return distance features for a motion without a body, in the matrix's unit of distance.
+
+    Frames in gaps are 0; the caller sets them to nan.
+    """
     visible = np.ones(motion.n_frames, np.bool_)
     for start, stop in motion.gaps:
         visible[start:stop] = False

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import file_digest, sha256
-from math import isfinite
+from math import inf, isfinite
 from os import PathLike
 from os.path import realpath
 from pathlib import Path
@@ -61,16 +61,10 @@ class FileContent:
 
     @property
     def text(self) -> str:
-        """Return the bytes as text: UTF-8 or UTF-16, else Windows-1252.
-
-        Bytes that fit none of these are replaced; they occur in comments and names only.
-        """
+        """Return the bytes as text: UTF-16 if they start with its mark, else by `decode_text`."""
         if self.is_utf16:
             return self.data.decode("utf-16", errors="replace")
-        try:
-            return self.data.decode("utf-8").removeprefix("\ufeff")
-        except UnicodeDecodeError:
-            return self.data.decode("cp1252", errors="replace")
+        return decode_text(self.data).removeprefix("\ufeff")
 
     @property
     def is_utf16(self) -> bool:
@@ -82,11 +76,19 @@ class FileContent:
         where = "" if line is None else f"line {line}: "
         self.remarks.append(Note(f"{where}{reason}", "warning"))
 
-    def choose_rate(self, requested: float | None, stated: float | None) -> float:
-        """Return the requested frame rate, else the stated one, else 0; warn if they differ."""
+    def choose_rate(
+        self, requested: float | None, stated: float | None, missing: str = ""
+    ) -> float:
+        """Return the requested frame rate, else a valid stated one, else 0; warn if they differ.
+
+        Instead of returning 0, raise ReadError if ``missing`` says what the file lacks.
+        """
+        stated = stated if stated and 0 < stated < inf else 0.0
         if requested and stated and abs(requested - stated) > RATE_ROUNDING * stated:
             self.warn(f"the file states {stated:g} Hz; {requested:g} is used")
-        return requested or stated or 0.0
+        if missing and not (requested or stated):
+            raise self.error(f"{missing}: give fps= (--fps)")
+        return requested or stated
 
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
         """Return the provenance of a recording in this file, with all remarks and these notes."""
@@ -132,6 +134,17 @@ class FileHead(FileContent):
     @property
     def memory_limit(self) -> int:
         return max(MIN_MEMORY, MAX_EXPANSION * self.path.stat().st_size)
+
+
+def decode_text(data: bytes) -> str:
+    """Return bytes as text: UTF-8, else Windows-1252.
+
+    Bytes that fit neither are replaced; they occur in comments and names only.
+    """
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
 
 
 def load_head(path: str | PathLike[str]) -> FileHead:

@@ -128,7 +128,9 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
         if points.person is None:
             sentence = f"{len(subjects)} subjects: the body used is that of {subject!r}"
             remark = Note(f"{sentence}; choose another with person= (--person)", "warning")
-        provenance = provenance.noted(remark).of_person(subject, subjects)
+        provenance = provenance.noted(remark)
+    if any(subjects):
+        provenance = provenance.of_person(subject, subjects)
     positions = np.array(points.positions, np.float64)
     if left_out := len(full_names) - len(names):
         provenance = provenance.noted(f"{format_count(left_out, 'point')} of other bodies left out")
@@ -175,8 +177,9 @@ def to_motion(points: Points, provenance: Provenance) -> Motion:
             for joint, joint_points in body.items()
         )
         notes.append(f"{BODY}: {', '.join(used)}")
-    provenance = provenance.noted(*notes)
-    return Motion(skeleton, positions, points.fps, provenance=provenance, gaps=missing)
+    return Motion(
+        skeleton, positions, points.fps, provenance=provenance.noted(*notes), gaps=missing
+    )
 
 
 def select_subject(
@@ -197,8 +200,8 @@ def select_subject(
     subjects = [subject for subject, body in bodies.items() if "pelvis" in body]
     left_out: set[str] = set()
     if subjects:
-        several = len(subjects) > 1 and person is not None
-        chosen = choose_person(path, subjects, person) if several else subjects[0]
+        is_chosen = person is not None and any(subjects)
+        chosen = choose_person(path, subjects, person) if is_chosen else subjects[0]
         # Keep markers without a prefix, and props, of which one point may be named like a joint.
         left_out = {each for each, body in bodies.items() if each and len(body) > 1}
         left_out = (left_out | {*subjects}) - {chosen}
@@ -346,14 +349,15 @@ def columns_to_motion(
     Raise ReadError if there are no joints, columns differ in length, or the rate is unknown.
     """
     joints = _find_joints(content, columns)
-    use_visibility = options.confidence is not None
+    # Columns of visibility state whether a point is occluded: they count only on request.
     names, positions, confidence = _read_positions(
-        content, columns, joints, visibility=use_visibility
+        content, columns, joints, visibility=options.confidence is not None
     )
     limit = limit if options.confidence is None else options.confidence
-    positions[confidence < limit] = np.nan  # these become gaps
+    is_unsure = confidence < limit
+    positions[is_unsure] = np.nan  # these become gaps
     is_flat = all(len(axes) == 2 for axes in joints.values())
-    n_unsure = int((confidence < limit).sum())
+    n_unsure = int(is_unsure.sum())
     timing = find_table_timing(content, columns, options.fps, positions.reshape(len(positions), -1))
     positions, gaps = place_points(timing, positions)
     notes = list(timing.notes)

@@ -333,10 +333,14 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
     # Number 0 is accepted everywhere, so that one command reads files of several formats.
-    if options.take not in (None, "0") and recording.provenance.take is None:
-        raise content.error(
-            f"there is no take {options.take!r}: it holds a single one, so leave out take= (--take)"
-        )
+    # Channels that are read beside a motion belong to everybody.
+    for what in ("take",) if options.channels else ("take", "person"):
+        value = getattr(options, what)
+        if value not in (None, "0") and getattr(recording.provenance, what) is None:
+            raise content.error(
+                f"there is no {what} {value!r}: it holds a single one, so leave out {what}= "
+                f"(--{what})"
+            )
     if isinstance(recording, Motion):
         recording = check_bone_lengths(recording)
         return check_posture(recording) if options.up is None else recording

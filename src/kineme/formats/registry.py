@@ -183,6 +183,11 @@ def find_writer(suffix: str) -> Format | None:
     return next(writers, None)
 
 
+def list_motion_suffixes() -> list[str]:
+    """Return the suffixes of files to which motions can be written."""
+    return sorted({s for each in supported_formats() if each.write for s in each.suffixes})
+
+
 def is_video(path: Path) -> bool:
     """Return whether a path has the suffix of a video."""
     suffix = path.suffix.lower()

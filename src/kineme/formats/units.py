@@ -14,7 +14,7 @@ from math import ceil, floor
 import numpy as np
 
 from kineme._util import rotations as rot
-from kineme._util.arrays import Floats
+from kineme._util.arrays import Floats, normalize_vectors
 from kineme.recordings import Note, Skeleton
 from kineme.recordings.joint_names import mentions
 from kineme.recordings.kinematics import place_at_rest
@@ -224,9 +224,8 @@ def _find_body_axis(
     if not feet or not head:
         return None
     vectors = positions[:, head].mean(axis=1) - positions[:, feet].mean(axis=1)
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
     # The median is robust to frames in which the body bends or lies.
-    direction = np.median(vectors / np.where(length > 0, length, 1), axis=0)
+    direction = np.median(normalize_vectors(vectors), axis=0)
     axis = int(np.abs(direction).argmax())
     if abs(direction[axis]) < least:
         return None

@@ -28,12 +28,11 @@ from typing import Any, Literal
 
 from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ReadError
-from kineme.formats.delimited import from_text, replace_decimal_comma
+from kineme.formats.delimited import find_separator, from_text, replace_decimal_comma
 from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
     find_differences,
-    find_separator,
     open_new_text,
     parse_level,
     parse_number,

@@ -20,7 +20,7 @@ from typing import Any, TextIO
 
 from kineme._util.files import atomic_write, read_head, read_tail
 from kineme.errors import ReadError
-from kineme.formats.delimited import as_text, from_text, replace_decimal_comma
+from kineme.formats.delimited import as_text, find_separator, from_text, replace_decimal_comma
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 
@@ -142,13 +142,6 @@ def read_columns(path: Path) -> set[str]:
     except csv.Error:
         return set()
     return {cell.strip() for cell in cells}
-
-
-def find_separator(first_line: str) -> str:
-    """Return the separator in a line: tab, or semicolon if there are no commas, else comma."""
-    if "\t" in first_line:
-        return "\t"
-    return ";" if ";" in first_line and "," not in first_line else ","
 
 
 def digest_cuts(cuts: Iterable[tuple[object, object, object]]) -> str:

@@ -138,6 +138,7 @@ def name_sidecar(path: Path) -> Path:
 
 
 def _format_cells(row: Segment) -> list[Any]:
+    """Return the cells of a row in the order ``onset``, ``duration``, then `COLUMNS`."""
     cluster, action = (MISSING if each < 0 else each for each in (row.cluster, row.action))
     confidence, border = (
         MISSING if math.isnan(each) else each for each in (row.confidence, row.border_confidence)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from kineme._util.checks import check_type, is_whole_number
-from kineme._util.files import AnyPath, OwnedFolder, is_draft
+from kineme._util.files import AnyPath, OwnedFolder, is_draft, make_absolute
 from kineme._util.json import options_to_json
 from kineme._version import __version__
 from kineme.errors import ParameterError, ReadError
@@ -24,7 +24,6 @@ from kineme.library.planning import (
     Plan,
     as_paths,
     list_recordings,
-    make_absolute,
     make_plan,
     name_recordings,
     open_folder,

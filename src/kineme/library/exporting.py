@@ -50,6 +50,8 @@ CLUSTERS = "clusters"
 MOST_STRIPS = 12
 """Largest number of strips in the picture of all clusters."""
 ALL = "clusters.png"
+TABLE_SUFFIXES = (".parquet", ".csv", ".tsv")
+"""Suffixes of exported tables."""
 
 
 class Coverage(NamedTuple):
@@ -110,7 +112,7 @@ def run_query(tables: OpenTables, sql: str) -> Any:
         try:
             relation = connection.sql(sql)
             if relation is None:
-                raise ParameterError("this query returns no rows: begin it with select")
+                raise ParameterError("this statement is not a query: begin it with select")
             return relation.to_arrow_table()
         except duckdb.Error as error:
             raise ParameterError(" ".join(str(error).split())[:400]) from error
@@ -131,7 +133,7 @@ def write_table(table: Any, path: str | PathLike[str]) -> None:
         with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="") as file:
             write_rows(file, names, rows, delimiter="," if suffix == ".csv" else "\t")
     else:
-        raise WriteError(path, "the suffix must be one of .parquet, .csv, .tsv")
+        raise WriteError(path, f"the suffix must be one of {', '.join(TABLE_SUFFIXES)}")
 
 
 def _format_cell(value: object) -> object:

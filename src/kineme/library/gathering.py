@@ -3,8 +3,7 @@
 Existing analyses are reused, the others are made, on any executor. An error affects one recording
 only.
 
-Recordings with equal content are analysed once. Files are compared by size, then by a sample, and
-read as a whole only if both are equal.
+Recordings with equal content share one analysis.
 
 `compile_tables` then merges the clusters of all analyses and makes the tables of the library.
 """
@@ -12,13 +11,11 @@ read as a whole only if both are equal.
 from __future__ import annotations
 
 import warnings
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
-from hashlib import sha256
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +23,6 @@ from threadpoolctl import threadpool_limits
 
 from kineme._util.arrays import Ints
 from kineme._util.checks import is_text
-from kineme._util.files import AnyPath, refuse_pipe
-from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, KinemeWarning, ReadError, WriteError
 from kineme.formats import read_quietly
 from kineme.library.executors import Executor, Progress, track_progress
@@ -47,7 +42,6 @@ from kineme.library.storage.layout import (
     as_array,
     as_column,
     import_arrow,
-    is_remote,
     read_json,
     write_json,
 )
@@ -81,8 +75,6 @@ from kineme.transfer.clusters import (
 States = dict[str, tuple[str, str]]
 UNNAMED = "its name is not UTF-8 and cannot be stored: rename it"
 """Error for a file whose name is not UTF-8."""
-SAMPLE = 4096
-"""Bytes in the sample from the middle of a file."""
 PER_WORKER = 1 << 20
 """Bytes of recordings per process: starting one takes seconds."""
 DIED = "the process that read it died: it may need more memory than is available"
@@ -166,33 +158,16 @@ def _make_analyses(
 ) -> None:
     """Make the analyses of recordings and record the outcomes in ``into``."""
     tasks = make_tasks(waiting, plan)
-    skeleton = plan.read_options.skeleton
-    groups = {group.tasks[0]: group for group in group_by_content(tasks, skeleton)}
     done = track_progress(progress, len(tasks), sum(task.size for task in tasks))
-    remaining: list[Task] = []
-    for task, outcome in run_tasks(list(groups), executor):
-        _record_outcome(plan, task, outcome, into)
-        (_, *others), digest = groups[task]
-        if outcome.digest == digest:
-            into.digests.update((other.path, digest) for other in others)
-        else:  # it failed, or the file has changed: analyse each one on its own
-            remaining += others
-            others = []
-        done(1 + len(others), task.size * (1 + len(others)))
-    for task, outcome in run_tasks(remaining, executor):
-        _record_outcome(plan, task, outcome, into)
+    for task, outcome in run_tasks(tasks, executor):
+        if outcome.fatal:
+            raise WriteError(plan.folder, outcome.error)
+        if outcome.error:
+            into.failed[task.path] = outcome.error
+        else:
+            into.digests[task.path] = outcome.digest
+        into.new += outcome.new
         done(1, task.size)
-
-
-def _record_outcome(plan: Plan, task: Task, outcome: Outcome, into: Gathered) -> None:
-    """Record the outcome of a task; raise WriteError if all others will fail, too."""
-    if outcome.fatal:
-        raise WriteError(plan.folder, outcome.error)
-    if outcome.error:
-        into.failed[task.path] = outcome.error
-    else:
-        into.digests[task.path] = outcome.digest
-    into.new += outcome.new
 
 
 def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
@@ -202,53 +177,6 @@ def make_tasks(paths: Iterable[Path], plan: Plan) -> list[Task]:
     _ = sent.options_digest
     tasks = [Task(path, sent, measure_size(path)) for path in paths]
     return sorted(tasks, key=lambda task: (-task.size, task.path))
-
-
-class Group(NamedTuple):
-    """Tasks with equal content, and the digest; empty for a single task."""
-
-    tasks: Sequence[Task]
-    digest: str
-
-
-def group_by_content(tasks: Iterable[Task], skeleton: AnyPath | None) -> list[Group]:
-    """Group tasks by content, the largest first; remote and unreadable files are alone."""
-    criteria: tuple[Callable[[Task], str], ...] = (
-        lambda task: "" if is_remote(task.path) else f"{task.size}",
-        _digest_sample,
-        lambda task: compute_digest(task.path, skeleton),
-    )
-    groups = [Group(list(tasks), "")]
-    for criterion in criteria:
-        groups = [part for group in groups for part in _split_group(group, criterion)]
-    return sorted(groups, key=lambda group: (-group.tasks[0].size, group.tasks[0].path))
-
-
-def _split_group(group: Group, criterion: Callable[[Task], str]) -> list[Group]:
-    """Split a group by the value of a criterion; tasks with an empty value are alone."""
-    if len(group.tasks) < 2:
-        return [group]
-
-    def compute(task: Task) -> str:
-        try:
-            return criterion(task)
-        except (OSError, ReadError):  # the analysis will report it
-            return ""
-
-    parts: defaultdict[str | Task, list[Task]] = defaultdict(list)
-    for task, value in zip(group.tasks, map_threads(compute, group.tasks), strict=True):
-        parts[value or task].append(task)
-    return [Group(part, key if isinstance(key, str) else "") for key, part in parts.items()]
-
-
-def _digest_sample(task: Task) -> str:
-    """Return a digest of the middle of a file."""
-    if task.path.is_dir():
-        return "folder"
-    refuse_pipe(task.path)
-    with task.path.open("rb") as file:
-        file.seek(max(task.size - SAMPLE, 0) // 2)
-        return sha256(file.read(SAMPLE)).hexdigest()
 
 
 def run_tasks(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:

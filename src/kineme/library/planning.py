@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -14,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from kineme._util.files import AnyPath, OwnedFolder, refuse_pipe
+from kineme._util.files import AnyPath, OwnedFolder, is_remote, make_absolute, refuse_pipe
 from kineme._util.json import options_from_json, options_to_json
 from kineme._version import __version__
 from kineme.errors import FileError, ParameterError, ReadError, WriteError
@@ -28,7 +27,6 @@ from kineme.library.storage.layout import (
     KEY_LENGTH,
     TABLES,
     is_inside,
-    is_remote,
     make_path,
     read_head,
     read_json,
@@ -70,14 +68,12 @@ class Plan:
     def options_digest(self) -> str:
         """Return a digest of the version and all options and constants that affect results.
 
-        Raise ParameterError for options that a library cannot store.
+        Raise ParameterError for options that are invalid or that a library cannot store.
         """
-        self.segment_options.resolved()
-        presets = []
-        for signals in (False, True):
-            with suppress(ParameterError):  # constants that only the other preset has
-                chosen = self.segment_options.resolved(signals=signals)
-                presets.append([chosen.name, dict(chosen.parameters())])
+        chosen = [self.segment_options.resolved()]
+        with suppress(ParameterError):  # a constant that the preset for signals lacks
+            chosen.append(self.segment_options.resolved(signals=True))
+        presets = [[preset.name, dict(preset.parameters())] for preset in chosen]
         options = [options_to_json(each) for each in (self.read_options, self.segment_options)]
         content = [ANALYSIS, __version__, presets, options]
         return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
@@ -169,11 +165,6 @@ def as_paths(paths: AnyPath | Iterable[AnyPath]) -> list[Path]:
     if not isinstance(paths, Iterable):
         raise ParameterError(f"build takes paths of recordings or folders, not {paths!r:.60}")
     return [make_path(path, "build") for path in paths]
-
-
-def make_absolute(path: Path) -> Path:
-    """Return the absolute path without following links."""
-    return path if is_remote(path) else Path(os.path.abspath(path))  # noqa: PTH100
 
 
 def list_recordings(sources: Iterable[Path], *, recursive: bool, without: Path) -> dict[Path, Path]:

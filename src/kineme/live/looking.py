@@ -191,8 +191,7 @@ class RecentPast:
 
     def _segment(self, values: Floats, missing: Masks) -> Segmentation:
         recording = self.layout.make_recording(values, missing)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KinemeWarning)
+        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
             return segment_with_options(recording, self.options, details=(DEFAULT_DETAIL,))[0]
 
     def _known_spans(self, finals: Finals) -> Ints:
@@ -243,8 +242,7 @@ class RecentPast:
         preset = preset.at_most(fps)
         layout = replace(self.layout, fps=fps)
         recording = layout.make_recording(values, np.zeros(len(values), np.bool_))
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KinemeWarning)
+        with warnings.catch_warnings(action="ignore", category=KinemeWarning):
             if isinstance(recording, Signals):
                 prepared = prepare_signals(recording, preset, emg=self.options.emg)
             else:

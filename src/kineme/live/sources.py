@@ -327,8 +327,8 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
     queue: Queue[tuple[float, dict[str, float]]] = Queue()
     row: dict[str, float] = {}
 
-    def take(address: str, *values: Any) -> None:
-        """Add a message to the row; queue the row before if the message begins the next one."""
+    def add_message(address: str, *values: Any) -> None:
+        """Add a message to the row; if the row has it already, queue the row and begin another."""
         if address.endswith(UNUSED):
             return
         # Texts, such as the name of a bone, are part of the channel's name.
@@ -343,7 +343,7 @@ def receive_osc(port: int, host: str = "127.0.0.1") -> Source:
         row.update({f"{name}_{i}": number for i, number in enumerate(numbers, 1)})
 
     dispatcher = Dispatcher()
-    dispatcher.set_default_handler(take)
+    dispatcher.set_default_handler(add_message)
     server = BlockingOSCUDPServer((host, port), dispatcher)
     Thread(target=server.serve_forever, daemon=True).start()
     queue.get()  # the first row may be incomplete

@@ -25,7 +25,13 @@ import numpy as np
 
 from kineme._util.arrays import Floats
 from kineme._util.checks import require_extra
-from kineme._util.files import atomic_write, refuse_link, translate_read_errors
+from kineme._util.files import (
+    atomic_write,
+    is_locked,
+    lock_shared,
+    refuse_link,
+    translate_read_errors,
+)
 from kineme._util.json import convert_json
 from kineme.errors import ReadError, WriteError
 from kineme.live.events import Finals, Look
@@ -147,10 +153,14 @@ class Journal:
         try:
             self._file = self.path.open("x", encoding="utf-8", newline="")
         except FileExistsError as error:
-            advice = f"is from a run that ended early: kineme live --recover {self.path}"
-            raise WriteError(self.path, advice) from error
+            reason = (
+                "exists already: give another name, or if its run has ended, recover it with "
+                f"kineme live --recover {self.path}"
+            )
+            raise WriteError(self.path, reason) from error
         except OSError as error:
             raise WriteError(self.path, f"cannot be written: {error.strerror}") from error
+        lock_shared(self._file.fileno())
         self._writer = csv.writer(self._file)
         self._writer.writerow([TIME, *channels])
         self._file.flush()
@@ -202,8 +212,9 @@ class Journal:
 def recover_journal(path: str | os.PathLike[str]) -> Path:
     """Convert the complete lines of a journal to a Parquet file, and delete the journal.
 
-    ReadError if it is not a journal, or holds no row; WriteError if the Parquet file exists;
-    MissingDependencyError without pyarrow: the journal stays, and `kineme.read` reads it.
+    ReadError if it is not a journal, or holds no row; WriteError if the Parquet file exists, or a
+    run still writes the journal; MissingDependencyError without pyarrow: the journal stays, and
+    `kineme.read` reads it.
     """
     journal = Path(path)
     if not journal.name.endswith(SUFFIX):
@@ -216,6 +227,8 @@ def recover_journal(path: str | os.PathLike[str]) -> Path:
         from pyarrow import csv as arrow_csv
         from pyarrow import parquet
     with translate_read_errors(journal):
+        if is_locked(journal, if_unknown=False):
+            raise WriteError(journal, "is still being written: recover it when its run has ended")
         _cut_last_line(journal)
         with journal.open(encoding="utf-8", newline="") as file:
             names = next(csv.reader(file), [])

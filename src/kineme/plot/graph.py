@@ -19,7 +19,7 @@ from kineme.synthesis.graph import MotionGraph
 
 
 def plot_graph(graph: MotionGraph, path: Path) -> None:
-    """Write the plot as PNG, PDF or SVG, by suffix."""
+    """Write the ring of nodes and the matrix of edges as PNG, PDF or SVG, by suffix."""
     colors = [get_cluster_color(node.cluster) for node in graph.nodes]
     figure = Figure(figsize=(12, 6), layout="constrained")
     ring, matrix = figure.subplots(1, 2)
@@ -29,10 +29,10 @@ def plot_graph(graph: MotionGraph, path: Path) -> None:
     for edge in graph.edges:
         a, b = positions[edge.tail], positions[edge.head]
         style = {"lw": 0.5, "alpha": 0.5} if edge.jump else {"lw": 2.0, "alpha": 1.0}
-        bend = np.linspace(0, 1, 24)[:, None]
+        t = np.linspace(0, 1, 24)[:, None]
         # Control point of a quadratic Bézier curve: jumps bend towards the centre.
         middle = (a + b) / 2 * (0.4 if edge.jump else 1)
-        curve = (1 - bend) ** 2 * a + 2 * bend * (1 - bend) * middle + bend**2 * b
+        curve = (1 - t) ** 2 * a + 2 * t * (1 - t) * middle + t**2 * b
         ring.plot(*curve.T, color=colors[edge.tail], zorder=1, **style)
     ring.scatter(*positions.T, c=colors, s=60, zorder=2, edgecolors="white")
     ring.set_aspect("equal")

@@ -363,33 +363,43 @@ def _describe_timing(steps: Floats, doubled: int, fps: float, *, exact: bool) ->
 
 
 def _add_frames_and_clock(
-    timing: Timing, frames: Floats, at: Floats, ahead: Floats, was_set: Masks, most: int
+    timing: Timing,
+    frames: Floats,
+    seconds: Floats,
+    clock_offset: Floats,
+    was_reset: Masks,
+    max_frames: int,
 ) -> Timing:
     """Return the timing with the frames of its rows, gaps, and clock.
 
-    Pauses are cut to fit into ``most`` frames. ``at`` are the seconds of the rows in time order,
-    ``ahead`` the clock's offset from them; ``was_set`` marks the row after the clock went back.
+    Arrays have a value per row, in time order: ``frames`` (fractional), ``seconds``,
+    ``clock_offset`` (time in the file minus seconds), and ``was_reset``, true for the first row
+    after the clock went back. Pauses are shortened to fit into ``max_frames``.
     """
     rate, notes = timing.fps, list(timing.notes)
-    frames, cut = _shorten_pauses(frames, most)
+    frames, cut = _shorten_pauses(frames, max_frames)
     if cut.any():
         k = int(cut.argmax())
+        pause_s = seconds[k + 1] - seconds[k]
         text = (
-            f"{format_count(int(cut.sum()), 'pause')}, the first of {at[k + 1] - at[k]:.4g} "
+            f"{format_count(int(cut.sum()), 'pause')}, the first of {pause_s:.4g} "
             f"s after second {frames[k] / rate:.4g}: the recording is split there, and its "
             "duration does not include pauses"
         )
         notes.append(Note(text, "warning"))
-    # rows at which the clock jumps relative to the seconds of the recording
-    turns = np.flatnonzero(cut | (np.abs(np.diff(ahead)) > LONGEST_S)) + 1
-    starts, clock = np.append(0, turns), None
-    begins, shown = frames[starts] / rate, (at + ahead)[starts]
-    if len(starts) > 1 or abs(shown[0]) > 0.5 / rate:
-        clock = Clock(begins.tolist(), shown.tolist())
-    splits = np.flatnonzero(cut | was_set[1:])
-    ends = ((frames[k], frames[k + 1]) for k in splits.tolist())
-    # Whole frames strictly between the two rows at a split.
-    gaps = ((int(np.floor(a)) + 1, int(np.ceil(b))) for a, b in ends)
+    # The clock has one span from each row at which it jumps against the recording.
+    jumps = np.flatnonzero(cut | (np.abs(np.diff(clock_offset)) > LONGEST_S)) + 1
+    starts = np.append(0, jumps)
+    start_times = (seconds + clock_offset)[starts]
+    clock = None
+    # No clock if the times in the file are the seconds of the recording.
+    if len(starts) > 1 or abs(start_times[0]) > 0.5 / rate:
+        clock = Clock((frames[starts] / rate).tolist(), start_times.tolist())
+    # A gap holds the whole frames strictly between the two rows at a split.
+    splits = np.flatnonzero(cut | was_reset[1:])
+    gap_starts = np.floor(frames[splits]).astype(np.int64) + 1
+    gap_stops = np.ceil(frames[splits + 1]).astype(np.int64)
+    gaps = zip(gap_starts.tolist(), gap_stops.tolist(), strict=True)
     return replace(
         timing,
         at=frames,
@@ -447,24 +457,25 @@ def find_longest_filled(steps: Floats, fps: float) -> float:
 
     ``steps`` are those from one of its values to the next.
     """
-    most = LONGEST_S * fps + 1e-9
-    # A channel may be slower than the others but regular.
+    longest = LONGEST_S * fps + 1e-9
+    # A channel may be slower than the others but regular: then allow 2.5 of its own steps.
+    # With fewer steps the median says little, and one value per frame is expected.
     usual = float(np.median(steps)) if len(steps) >= RATE_STEPS else 1.0
-    even = np.abs(steps - usual) <= _ORDINARY * usual
-    if 1.5 < usual <= _SLOWEST_S * fps and even.mean() > _MOST:
-        most = max(most, 2.5 * usual)
-    return most
+    is_slow = 1.5 < usual <= _SLOWEST_S * fps
+    if is_slow and (np.abs(steps - usual) <= _ORDINARY * usual).mean() > _MOST:
+        longest = max(longest, 2.5 * usual)
+    return longest
 
 
 def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
     """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
-    most = find_longest_filled(np.diff(known_frames), fps)
-    # frames within half a frame of a known one count as known
+    max_step = find_longest_filled(np.diff(known_frames), fps)
+    # Frames within half a frame of a known one count as known. -1 and n_frames enclose them all.
     ends = np.concatenate([[-1.0], known_frames, [float(n_frames)]])
     starts = np.floor(ends[:-1] + 0.5).astype(np.int64) + 1
     stops = np.minimum(np.ceil(ends[1:] - 0.5).astype(np.int64), n_frames)
-    long = np.diff(ends) - 1 > most
-    spans = np.column_stack([np.maximum(starts, 0), stops])[long]
+    is_hole = np.diff(ends) - 1 > max_step
+    spans = np.column_stack([np.maximum(starts, 0), stops])[is_hole]
     return spans[spans[:, 0] < spans[:, 1]]
 
 

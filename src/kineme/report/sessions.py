@@ -126,7 +126,7 @@ def _format_page(sheet: Sheet) -> str:
     channels = {group: _sort_channels(sheet, group)[:n_channels] for group in shown_groups}
     body = [
         f"<h1>{first} → {second}</h1>",
-        f'<p class="quiet">{_format_counts(sheet)}. {EXPLANATION}</p>',
+        f'<p class="quiet">{_format_caption(sheet)}. {EXPLANATION}</p>',
         *(_format_numbers(sheet, group, channels[group]) for group in shown_groups),
         _format_pictures(sheet, _list_panels(channels)[: MAX_PANELS[len(shown_groups)]]),
         _format_sides(sheet, shown_groups),
@@ -143,10 +143,11 @@ def _format_page(sheet: Sheet) -> str:
     )
 
 
-def _format_counts(sheet: Sheet) -> str:
+def _format_caption(sheet: Sheet) -> str:
+    """Return what the numbers are, and how many repetitions of each session are left out."""
     kind = "all repetitions" if sheet.ends else "inner repetitions, without first and last ones"
     left_out = "".join(
-        f"; {count} of {escape(name)} left out ({escape(reason)})"
+        f"; {format_count(count, 'repetition')} of {escape(name)} left out ({escape(reason)})"
         for name, cycles in zip(sheet.names, sheet.sessions, strict=True)
         for reason, count in Counter(cycles.columns["excluded"].tolist()).items()
         if reason

@@ -380,7 +380,8 @@ class Segmentation:
         Returns
         -------
         list of str
-            Seconds, or ISO 8601 dates if the clock counts since 1970.
+            Seconds, or ISO 8601 dates in UTC if the clock counts since 1970. Dates without a zone
+            in the file keep their hour, as if they were UTC.
         """
         clock = self.clock
         return [] if clock is None else [clock.format_time(row.start_s) for row in self]

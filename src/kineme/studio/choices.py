@@ -58,7 +58,9 @@ def check_parameters(preset: str, parameters: Mapping[str, float], *, signals: b
     offered = {constant.name: constant for constant in _list_parameters(preset, signals=signals)}
     for name, value in parameters.items():
         if name not in offered:
-            raise ParameterError(f"{preset} offers {', '.join(offered)}, not {name!r:.40}")
+            raise ParameterError(
+                f"the page offers no {name!r:.40} for {preset}; there are {', '.join(offered)}"
+            )
         low, high = offered[name].minimum, offered[name].maximum
         if not low - 1e-9 <= value <= high + 1e-9:
             raise ParameterError(f"{name} can be {low:.4g} to {high:.4g}, not {value:.4g}")

@@ -24,6 +24,7 @@ from starlette.routing import Route
 from threadpoolctl import threadpool_limits
 
 from kineme._util.checks import format_count
+from kineme._util.files import is_remote
 from kineme._util.parallel import map_threads
 from kineme.errors import KinemeError, ParameterError
 from kineme.formats import ReadOptions
@@ -32,7 +33,7 @@ from kineme.library import Example, Library
 from kineme.library.edits import read_edits
 from kineme.library.finding import Named
 from kineme.library.planning import read_recording
-from kineme.library.storage.layout import EDITS, HEAD, is_remote
+from kineme.library.storage.layout import EDITS, HEAD
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation

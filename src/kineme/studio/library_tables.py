@@ -23,6 +23,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from kineme._util.files import is_remote
 from kineme._version import __version__
 from kineme.errors import ParameterError
 from kineme.library import Library
@@ -31,7 +32,6 @@ from kineme.library.storage.layout import (
     EDITS,
     LOCK_EDITS,
     as_array,
-    is_remote,
     lock_for_writing,
     read_json,
     write_json,

@@ -236,20 +236,21 @@ def find_jumps(
 
 
 def _sample_ends(
-    nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, widest: float, side: int
+    nodes: Sequence[Node], firsts: Ints, ratio: float, half: int, max_reach: float, side: int
 ) -> tuple[Ints, Ints]:
-    """Return frames near the ends (side 1) or starts (side 0) of all nodes, and their nodes.
+    """Return frames near the starts (side 0) or ends (side 1) of all nodes, and their nodes.
 
-    These are frames with a full window inside their recording, so close to the border that a node
-    is never left before it is entered.
+    Frames count over all recordings in a row, at the working rate. ``firsts`` are the first frames
+    of the recordings, and the end of the last. ``ratio`` is the frame rate of the nodes divided by
+    the working rate. A frame has ``half`` a window on both sides within its recording, and lies
+    within ``max_reach`` frames and a quarter of the node from the border.
     """
     frames, owners = [], []
     for number, node in enumerate(nodes):
         # In frames of the working rate, possibly fractional.
         border = (node.start, node.stop)[side] / ratio
-        # A quarter of the node: an entry at its start lies before any exit at its end.
-        reach = min((node.stop - node.start) / ratio / 4, widest)
-        # The cloud needs half a window on both sides.
+        # With a quarter of the node, entries near its start are before all exits near its end.
+        reach = min((node.stop - node.start) / ratio / 4, max_reach)
         low, high = half, firsts[node.source + 1] - firsts[node.source] - half
         frames_of_node = np.arange(
             max(low, int(np.ceil(border - reach))), min(high, int(border + reach) + 1)

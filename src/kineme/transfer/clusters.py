@@ -407,13 +407,13 @@ def assign_to_centres(
     *,
     n_clusters: int | None = None,
 ) -> Assignment:
-    """Assign each group of spans to a cluster, by the samples of channels in them.
+    """Assign each group of spans, such as a local cluster, to the centre nearest to its mean.
 
-    ``load(n)`` of a recording returns every n-th of its `ChannelSamples.rows`, ``counts`` holds
-    their number. Sums depend on the order of recordings, so sort them by content, not by name.
-    ``spans`` holds groups of spans (segments, 2) of each recording in seconds, for example the
-    segments of a local cluster.
+    Each argument has an item per recording: ``loads`` a function that returns every n-th of its
+    `ChannelSamples.rows`, ``counts`` the number of these rows, ``spans`` its groups of spans
+    (segments, 2) in seconds. Sort the recordings by content, not by name: sums depend on the order.
     """
+    # Rounded up, so that at most about `MAX_SAMPLES` rows are used for the centres.
     step = -(-sum(counts) // MAX_SAMPLES)
     rows = np.concatenate([load(step) for load in loads])
     to_features = fit_units(rows)
@@ -421,6 +421,7 @@ def assign_to_centres(
     centres, _ = fit_centres(points, n_clusters or estimate_n_clusters(points))
     means = []
     for load, groups in zip(loads, spans, strict=True):
+        # All rows; their first column is the time.
         rows = load(1)
         features = to_features(rows).astype(np.float64)
         means += [features[find_samples_in(rows[:, 0], group)].mean(axis=0) for group in groups]

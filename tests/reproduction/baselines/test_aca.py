@@ -15,9 +15,9 @@ import kineme
 import naive
 from kineme.errors import MotionError, ParameterError
 from kineme.evaluation import Comparison, one_to_one_accuracy
-from kineme.evaluation.inputs import read_trials
 from kineme.features.pose import compute_joint_quaternions, compute_log_maps
 from kineme.methods import PRESETS
+from kineme_reproduction.annotations import read_trials
 from kineme_reproduction.baselines._kernels import (
     cheapest_lengths,
     propagate,

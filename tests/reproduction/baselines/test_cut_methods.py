@@ -14,9 +14,9 @@ import kineme
 import naive
 from kineme.errors import ParameterError
 from kineme.evaluation import Comparison, Labelling, border_score
-from kineme.evaluation.inputs import read_trials
 from kineme.features.pose import compute_joint_quaternions
 from kineme.methods import PRESETS
+from kineme_reproduction.annotations import read_trials
 from kineme_reproduction.baselines.barbic2004 import gmm
 from kineme_reproduction.baselines.segments import Segments, cut_uniformly
 

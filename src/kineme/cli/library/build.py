@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from kineme._util.checks import format_count
+from kineme._util.files import is_remote
 from kineme._util.parallel import count_threads
 from kineme.cli.files import Batch
 from kineme.cli.help import INPUT, OUTPUT, RECORDINGS, option
@@ -120,8 +121,6 @@ def _needs_processes(files: Sequence[Path], into: Path) -> bool:
 
 def _report_and_exit(built: Built, sources: Sequence[Path]) -> None:
     """Print what failed; exit with code 1 if it was named by the user."""
-    from kineme.library.storage.layout import is_remote
-
     failed = {path: reason for path, reason in built.failed.items() if is_remote(path)}
     for path, reason in failed.items():
         print_skipped(format_line(reason, subject=path))

@@ -15,6 +15,7 @@ import typer
 from rich.text import Text
 
 from kineme._util.checks import format_count
+from kineme.cli.files import check_suffix
 from kineme.cli.help import OUTPUT, option, output_option
 from kineme.cli.options import CLIPS, add_options
 from kineme.cli.tables import format_cluster, make_table
@@ -122,6 +123,9 @@ def export(
     ] = "segments",
 ) -> None:
     """Write the segments of all recordings as one table."""
+    from kineme.library.exporting import TABLE_SUFFIXES
+
+    check_suffix("--output", output, TABLE_SUFFIXES)
     with open_library(folder) as library:
         library.export(output, table)
 

@@ -317,7 +317,7 @@ class Pose:
                 angles, turn = value, None
             elif _get_choice(properties, "RotationAccumulationMode", 2) == _BY_CHANNEL:
                 # Layers are added per axis, so convert a product back to angles.
-                angles = angles if turn is None else _to_angles(turn, order)
+                angles = angles if turn is None else to_angles(turn, order)
                 angles = angles * _weigh_previous(weight, properties) + value * weight
                 turn = None
             else:
@@ -403,7 +403,8 @@ def invert_transform(
     )
     own_turns = rot.multiply(rot.multiply(rot.conjugate(pre_rotation), turns), post_rotation)
     # The contribution of pivots does not depend on the translation.
-    return shifts - _add_pivots(properties, np.zeros(3), turns, scale), _to_angles(own_turns, order)
+    shifts = shifts - _add_pivots(properties, np.zeros(3), turns, scale)
+    return shifts, to_angles(own_turns, order, unwrapped=True)
 
 
 def _replaces(properties: Properties) -> bool:
@@ -427,13 +428,15 @@ def _to_rotation(angles: Floats, axes: str) -> Floats:
     return rotations.T
 
 
-def _to_angles(turn: Floats, axes: str) -> Floats:
-    """Return angles about x, y and z in degrees whose product in this order is the rotation."""
-    from scipy.spatial.transform import Rotation  # slow to import and rarely needed
+def to_angles(turns: Floats, axes: str, *, unwrapped: bool = False) -> Floats:
+    """Return angles about x, y and z in degrees whose product in this order is the rotation.
 
-    # SciPy puts w last.
-    columns = Rotation.from_quat(np.roll(turn, -1, axis=-1)).as_euler(axes.upper(), degrees=True)
-    return np.asarray(columns[..., [axes.index(axis) for axis in "xyz"]], np.float64)
+    If ``unwrapped``, they are those nearest to the frame before, so that no joint spins between.
+    """
+    angles = rot.to_euler(turns, axes)
+    if unwrapped:
+        angles = rot.unwrap_euler(angles)
+    return np.asarray(np.degrees(angles)[..., [axes.index(axis) for axis in "xyz"]])
 
 
 def _add_pivots(properties: Properties, shift: Floats, turn: Floats, scale: Floats) -> Floats:

@@ -47,6 +47,7 @@ from kineme.formats.scenes.fbx_scene import (
     FBXScene,
     Pose,
     invert_transform,
+    to_angles,
 )
 from kineme.formats.skeletons.placing import RIGID
 from kineme.recordings import Motion
@@ -156,7 +157,7 @@ class TakeWriter:
         properties = _make_properties(
             ("RotationActive", "bool", "", 1),
             ("InheritType", "enum", "", INHERITANCE.index(rest.inheritance)),
-            ("PreRotation", "Vector3D", "Vector", *_to_angles(rest.rotation).tolist()),
+            ("PreRotation", "Vector3D", "Vector", *to_angles(rest.rotation, "zyx").tolist()),
             (TRANSLATION, TRANSLATION, "", *rest.translation.tolist()),
             (ROTATION, ROTATION, "", 0.0, 0.0, 0.0),
             (SCALING, SCALING, "", *rest.scale.tolist()),
@@ -204,16 +205,14 @@ class TakeWriter:
             if distance > RIGID or skeleton.parents[joint] < 0:
                 self._add_curves(layer, node, TRANSLATION, "T", times, translations)
             if joint not in skeleton.end_sites:
-                # Avoid jumps of 360 degrees, which would spin the joint between frames.
-                angles = np.unwrap(angles, period=360.0, axis=0)
                 self._add_curves(layer, node, ROTATION, "R", times, angles)
 
     def find_values(
         self, node: int, shifts: Floats, turns: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """Return translations and angles that move a node like this, and its rest translation."""
-        angles = _to_angles(rot.multiply(rot.conjugate(self.rig.rotations[node]), turns))
-        return shifts, angles, self.rig.translations[node]
+        turns = rot.multiply(rot.conjugate(self.rig.rotations[node]), turns)
+        return shifts, to_angles(turns, "zyx", unwrapped=True), self.rig.translations[node]
 
     def _add_curves(
         self, layer: int, model: int, property_name: str, short: str, times: Any, values: Floats
@@ -453,12 +452,6 @@ def _make_properties(*entries: Sequence[Any]) -> FBXNode:
         for name, kind, label, *values in entries
     )
     return make_group("Properties70", *rows)
-
-
-def _to_angles(rotations: Floats) -> Floats:
-    """Return the angles about x, y and z in degrees, applied in this order."""
-    angles: Floats = np.degrees(rot.to_euler(rotations, "zyx"))[..., ::-1]
-    return angles
 
 
 def encode_fbx(nodes: Iterable[FBXNode], start: bytes, footer: bytes, source: bytes = b"") -> bytes:

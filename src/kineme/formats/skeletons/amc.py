@@ -39,7 +39,15 @@ from kineme._util import rotations as rot
 from kineme._util.arrays import Floats
 from kineme._util.checks import warn
 from kineme.errors import ReadError, WriteError
-from kineme.formats.files import FileContent, clean_names, format_table, load, parse_numbers, save
+from kineme.formats.files import (
+    FileContent,
+    clean_names,
+    decode_text,
+    format_table,
+    load,
+    parse_numbers,
+    save,
+)
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.skeletons.asf import ROOT, Figure, read_asf
@@ -260,7 +268,9 @@ class _FrameParser:
     """Parse frames whose bones are in the same order as in ``frame``."""
 
     def __init__(self, content: FileContent, frame: Frame) -> None:
-        self.names = [name.encode() for name in frame]
+        # Older files have names in Windows-1252, such as "Fuß".
+        encoded = [(name.encode(), name.encode("cp1252", "replace")) for name in frame]
+        self.names = [name if name in content.data else old for name, old in encoded]
         is_name = [i == 0 for values in frame.values() for i in range(1 + len(values))]
         self.is_name, self.is_value = is_name, [not each for each in is_name]
         # Arrays for the compiled parser, whose integers have 64 bits on every system.
@@ -308,7 +318,7 @@ def _parse_lines(content: FileContent, span: slice, first_line: int, figure: Fig
 
 def _add_bone(frame: Frame, words: list[bytes], figure: Figure) -> None:
     """Add the line of a bone to the values of a frame; ValueError if the skeleton differs."""
-    name = words[0].decode("utf-8", "replace")
+    name = decode_text(words[0])
     if name not in figure.bones:
         raise ValueError(f"bone {name[:40]!r} is not in the skeleton: give the matching ASF")
     if name in frame:

@@ -171,11 +171,6 @@ def _find_character(content: FileContent, joints: Sequence[Joint], person: str |
     roots = [i for i, joint in enumerate(joints) if joint.parent < 0]
     trees = [[joint.name for joint in joints[a:b]] for a, b in pairwise([*roots, len(joints)])]
     if sum(bool(find_joints(names, [("pelvis",)])) for names in trees) < 2:
-        if person not in (None, "0"):
-            raise content.error(
-                f"there is no person {person!r}: it holds a single one, so leave out person= "
-                "(--person)"
-            )
         return Character([*range(len(joints))], [], "", [])
     nodes = [
         SceneNode(joint.name, joint.parent, bone=True, animated=bool(joint.channels))

@@ -70,14 +70,10 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     positions = _stack_frames(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
     if not np.isfinite(positions).all():
         raise content.error("positions are not all numbers")
-    fps = content.choose_rate(options.fps, subject.rate)
-    if not fps > 0:
-        raise content.error("it states no frameRate: give fps= (--fps)")
+    fps = content.choose_rate(options.fps, subject.rate, "it states no frameRate")
     left_out = [name for name in subject.segments if name not in PARENTS]
     notes = [f"segments left out: {', '.join(left_out)}"] if left_out else []
-    provenance = content.provenance("MVNX", notes)
-    if len(people) > 1:
-        provenance = provenance.of_person(person, names_of_people)
+    provenance = content.provenance("MVNX", notes).of_person(person, names_of_people)
     if not subject.values["orientation"]:
         positions = to_metres(options.unit or "m") * turn_upright(positions, options.up or "z")
         # Offsets come from the frame with the largest height.
@@ -145,7 +141,7 @@ class _SubjectParser(NoEntities):
         try:
             self.people[-1].values[name].append(np.array(words, np.float64))
         except ValueError:
-            raise self.content.error(f"a frame has a {name} that is not a number") from None
+            raise self.content.error(f"the {name} of a frame is not a number") from None
 
 
 def _parse_subjects(content: FileContent) -> list[Subject]:

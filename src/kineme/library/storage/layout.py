@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.checks import check_path, is_number, require_extra
-from kineme._util.files import atomic_write, refuse_link, refuse_pipe
+from kineme._util.files import atomic_write, is_remote, refuse_link, refuse_pipe
 from kineme._util.json import load_json
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
 
@@ -49,7 +49,7 @@ MOST_CLUSTERS = 1 << 62
 _KINDS = {
     "clustering": dict,
     "failed": dict,
-    "following": int,
+    "following": int,  # number of the next new cluster
     "read_options": dict,
     "segment_options": dict,
     "sources": list,
@@ -82,11 +82,6 @@ def make_path(path: str | PathLike[str], caller: str = "make_path") -> Path:
     except (ImportError, ValueError) as error:  # e.g. "Install s3fs to access S3"
         raise ParameterError(f"{path:.200} cannot be reached: {error}") from error
     return cast("Path", remote)
-
-
-def is_remote(path: str | PathLike[str]) -> bool:
-    """Return whether a path is a URL of universal_pathlib."""
-    return hasattr(path, "protocol")
 
 
 def is_inside(path: Path, folder: Path) -> bool:
@@ -161,13 +156,13 @@ def read_head(folder: str | PathLike[str]) -> dict[str, Any]:
             f"is of the schema {head.get('schema')!r:.40}, but this version of kineme reads "
             f"{SCHEMA}: build the library again in another folder",
         )
-    if not _is_complete(head):
+    if not _is_valid(head):
         raise ReadError(path, "is damaged: its content is not valid; build the library again")
     return head
 
 
-def _is_complete(head: Mapping[str, Any]) -> bool:
-    """Return whether all entries of a head are present and valid."""
+def _is_valid(head: Mapping[str, Any]) -> bool:
+    """Return whether a head has all entries of `_KINDS` with valid values."""
     if not all(isinstance(head.get(name), kind) for name, kind in _KINDS.items()):
         return False
     constants = head["clustering"]

@@ -34,7 +34,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Ints
-from kineme._util.files import OwnedFolder, atomic_write, is_draft, translate_read_errors
+from kineme._util.files import (
+    OwnedFolder,
+    atomic_write,
+    is_draft,
+    is_remote,
+    translate_read_errors,
+)
 from kineme._util.json import decode_json
 from kineme.errors import ReadError, WriteError
 from kineme.library.storage.layout import (
@@ -47,7 +53,6 @@ from kineme.library.storage.layout import (
     as_column,
     copy_nearby,
     import_arrow,
-    is_remote,
     write_locally,
 )
 from kineme.library.windows import (

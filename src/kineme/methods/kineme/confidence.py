@@ -113,26 +113,26 @@ class Evidence:
         return np.append(np.nan, np.log(np.maximum(sharpness, MIN_SHARPNESS)))
 
     @cached_property
-    def repeated(self) -> Floats:
+    def repetition_similarity(self) -> Floats:
         """Return the mean correlation of pairs of repetitions of each segment, as Fisher's z.
 
         It is 0 for a single repetition, and nan if the primitives are not repetitions.
         """
         parents, repeats = self.segments.parents, self.segments.repeats
-        repeated = np.full(len(self.segments.labels), np.nan)
+        correlations = np.full(len(self.segments.labels), np.nan)
 
         def store_correlation(segment: int) -> None:
-            """Write the mean correlation of a segment to ``repeated``."""
+            """Write the mean correlation of a segment to ``correlations``."""
+            # Primitives of the segment, and their borders in frames at the working rate.
             first, last = self.segments.firsts[segment : segment + 2]
-            edges = self.segments.primitives[first : last + 1]
-            movement = trace_movement(
-                self.rows[edges[0] : max(edges[-1], edges[0] + 1)], self.preset
-            )
-            samples = sample_repetitions(movement.poses, movement.path, edges - edges[0], PLACES)
-            repeated[segment] = compute_mean_correlation(samples[repeats[first:last]])
+            borders = self.segments.primitives[first : last + 1]
+            start, stop = borders[0], max(borders[-1], borders[0] + 1)  # at least one frame
+            movement = trace_movement(self.rows[start:stop], self.preset)
+            samples = sample_repetitions(movement.poses, movement.path, borders - start, PLACES)
+            correlations[segment] = compute_mean_correlation(samples[repeats[first:last]])
 
         map_threads(store_correlation, np.unique(parents[repeats]).tolist())
-        return repeated
+        return correlations
 
     @cached_property
     def _samples(self) -> Frames:
@@ -283,7 +283,7 @@ def compute_confidence(evidence: Evidence, calibration: Calibration) -> Confiden
     if calibration.borders:
         borders = compute_probability(calibration.borders, evidence.sharpness)
     if calibration.cuts:
-        cuts = compute_probability(calibration.cuts, evidence.repeated)
+        cuts = compute_probability(calibration.cuts, evidence.repetition_similarity)
     # The first primitive of a segment starts at the border of the segment.
     is_first = np.diff(parents, prepend=-1) > 0
     return Confidence(

@@ -340,14 +340,16 @@ def _reassign_primitives(primitives: Rows, before: Rows, after: Rows, frame: int
 
 def change_parent(row: Segment, before: Segment, after: Segment) -> Segment:
     """Move a primitive from one activity to another; see the package docstring for the rules."""
-    # The kind follows the activity only if it was the same before.
-    same = (row.kind == "transition") == (before.kind == "transition")
+    # Kind, cluster and label follow the activity only if they were those of the old one.
+    has_its_kind = (row.kind == "transition") == (before.kind == "transition")
+    has_its_cluster = row.cluster >= 0 and row.cluster == before.cluster
+    has_its_label = row.label != "" and row.label == before.label
     kind = choose_kind(row.level, transition=after.kind == "transition")
     new = replace(
         row,
-        kind=kind if same else row.kind,
-        cluster=after.cluster if row.cluster == before.cluster >= 0 else row.cluster,
-        label=after.label if row.label == before.label != "" else row.label,
+        kind=kind if has_its_kind else row.kind,
+        cluster=after.cluster if has_its_cluster else row.cluster,
+        label=after.label if has_its_label else row.label,
     )
     # The confidence is that of kind and cluster.
     unchanged = (new.kind, new.cluster) == (row.kind, row.cluster)

@@ -25,10 +25,13 @@ const MARGIN_TOP = 8;
 
 const DASHES = [5, 4];
 
+/**
+ * Draw the repetitions of a cluster with their mean and deviation. The mean of another session
+ * (`beside`), else that of the other side of the body, is dashed.
+ */
 export function drawCurves(pen: Pen, picture: CurvePicture, width: number, height: number): void {
   const { curves, opposite, leftOut, selected } = picture;
-  const { cycles, mean } = curves;
-  const { beside } = curves;
+  const { cycles, mean, beside } = curves;
   const [low, high] = computeBounds(curves, opposite);
   const last = mean.length - 1;
   const x = (i: number): number => MARGIN_LEFT + (i / last) * (width - MARGIN_LEFT - MARGIN_RIGHT);
@@ -45,25 +48,28 @@ export function drawCurves(pen: Pen, picture: CurvePicture, width: number, heigh
   pen.fillStyle = color;
   pen.globalAlpha = 0.25;
   fillBand(pen, curves, x, y);
+  // Many repetitions overlap, so each is paler.
   const alpha = Math.max(0.18, Math.min(0.6, 6 / cycles.length));
   pen.lineWidth = 1;
   for (const [i, { values, counts }] of cycles.entries()) {
     pen.strokeStyle = leftOut.has(i) ? readColor("quiet") : color;
-    pen.globalAlpha = counts && !leftOut.has(i) ? alpha : alpha / 2; // not in the mean: paler
+    const isInMean = counts && !leftOut.has(i);
+    pen.globalAlpha = isInMean ? alpha : alpha / 2;
     strokeCurve(pen, values, x, y);
   }
   pen.strokeStyle = color;
   pen.globalAlpha = 1;
   pen.lineWidth = 2.5;
   strokeCurve(pen, mean, x, y);
-  const other = beside ?? opposite;
-  if (other) {
-    if (beside) pen.strokeStyle = readColor("quiet");
+  const dashed = beside ?? opposite;
+  if (dashed) {
+    pen.strokeStyle = beside ? readColor("quiet") : color;
     pen.lineWidth = beside ? 2 : 1.5;
     pen.setLineDash(DASHES);
-    strokeCurve(pen, other.mean, x, y);
+    strokeCurve(pen, dashed.mean, x, y);
     pen.setLineDash([]);
   }
+  // Mark on the axis where the two sessions differ.
   pen.fillStyle = color;
   for (const [i, differs] of (beside?.differs ?? []).entries())
     if (differs) pen.fillRect(x(i - 0.5), height - MARGIN_BOTTOM - 3, x(1) - x(0) + 0.5, 3);

@@ -76,13 +76,15 @@ export class Stage {
     this.controls.update();
   }
 
-  /** Turn the camera around its target (radians). */
-  orbit(round: number, down: number): void {
+  /** Turn the camera around its target by an azimuth and a polar angle, radians. */
+  orbit(azimuth: number, polar: number): void {
     const { target, minPolarAngle, maxPolarAngle } = this.controls;
-    const arm = new THREE.Spherical().setFromVector3(this.camera.position.clone().sub(target));
-    arm.theta += round;
-    arm.phi = Math.min(Math.max(arm.phi + down, minPolarAngle + 0.01), maxPolarAngle);
-    this.camera.position.setFromSpherical(arm).add(target);
+    const offset = new THREE.Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    offset.theta += azimuth;
+    // Straight above the target, the direction of the camera's up axis would be undefined.
+    const lowest = minPolarAngle + 0.01;
+    offset.phi = Math.min(Math.max(offset.phi + polar, lowest), maxPolarAngle);
+    this.camera.position.setFromSpherical(offset).add(target);
     this.controls.update();
   }
 

@@ -63,7 +63,7 @@ export function CompareDialog({ close }: DialogProps) {
 
 const TABLES_HERE = "tables"; // id of the tables edited here
 
-/** Choose whose labels to compare; all by default. */
+/** Choose whose labels to compare; by default those of all people. */
 function PeopleChoice({ close }: { close: () => void }) {
   const { session, view } = useStudio();
   const people = useSignal<AnnotatorChoice[]>([]);
@@ -74,6 +74,7 @@ function PeopleChoice({ close }: { close: () => void }) {
       const found = await session.api.loadAnnotators();
       const others = found.filter(({ id }) => id !== TABLES_HERE);
       people.value = found;
+      // A comparison needs two: with a single other person, tick the tables edited here, too.
       ticked.value = new Set((others.length > 1 ? others : found).map(({ id }) => id));
     });
   }, [session, people, ticked]);

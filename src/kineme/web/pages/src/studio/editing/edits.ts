@@ -84,13 +84,14 @@ export function applyChange(table: Segments, change: TableChange): Segments {
   return { ...table, cluster_names: change.cluster_names, segments };
 }
 
-/** Return the rows with the index of the activity that contains each. */
+/** Return rows, sorted by level and start, with the index of the activity that contains each. */
 function numberActivities(rows: readonly Segment[]): Segment[] {
   const starts = rows.filter(({ level }) => level === "activity").map((row) => row.start_frame);
   let activity = -1;
   let level = "";
   return rows.map((row) => {
     if (row.level !== level) [level, activity] = [row.level, -1];
+    // Past the last activity, the next start is undefined, and the comparison false.
     while (starts[activity + 1]! <= row.start_frame) activity += 1;
     return row.activity === activity ? row : { ...row, activity };
   });

@@ -171,7 +171,7 @@ function drawCurves(pen: Pen, curves: Sketch["curves"], share: number | null, co
     ]);
 }
 
-/** Project motions to 2-D, seen from the side where they move most. Pure functions. */
+/** Project a motion to 2-D, seen from the side where it moves most. */
 function flattenMotion(motion: Motion): Flat {
   const { n_samples, sample_fps, bones } = motion.head;
   const joints = motion.head.joints.length;

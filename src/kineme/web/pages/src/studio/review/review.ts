@@ -47,9 +47,11 @@ export class Review {
   async goToNext(): Promise<void> {
     const { everywhere, session } = this;
     if (everywhere.value) return this.queue.goToNext();
-    const several = (session.state.value?.recordings.length ?? 0) > 1;
-    if (!session.store.recording.value && several) return this.setEverywhere(true);
+    // Without an open recording, review the folder.
+    const hasSeveral = (session.state.value?.recordings.length ?? 0) > 1;
+    if (!session.store.recording.value && hasSeveral) return this.setEverywhere(true);
     const { doubts, present } = this;
+    // Skip the current segment. If all are skipped, start again with those still in doubt.
     if (present.value) this.passed.add(getSegmentKey(present.value.segment));
     let next = doubts.value.find(({ segment }) => !this.passed.has(getSegmentKey(segment)));
     if (!next) {
