@@ -64,6 +64,7 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
         "onset;duration;label\n0;2,0;walk\n2,5;1,5;jump\n",
         "name\tbegin (ms)\tend (ms)\nwalk\t0\t2000\njump\t2500\t4000\n",
         "Name,Start,End,Label\nAnn,0,2,walk\nAnn,2.5,4,jump\n",
+        "start,end,label\n00:00.000,0:02,walk\n0:00:02.5,00:04,jump\n",
         "label,start,end,start_frame,stop_frame\njump,,,25,40\nwalk,,,0,20\n",
     ],
 )
