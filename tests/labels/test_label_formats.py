@@ -214,15 +214,32 @@ def test_pympi_reads_what_we_write_and_we_read_what_it_writes(tmp_path) -> None:
     assert list_spans(back, "activity") == list_kept_spans(result, "activity", "elan")
 
 
-def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path) -> None:
+def write_tiers(path: Path, *tiers: str) -> Path:
     document = Elan.Eaf()
     document.remove_tier("default")
-    for tier in ("left", "right"):
+    for tier in tiers:
         document.add_tier(tier)
-        document.add_annotation(tier, 0, 500, "up")
-    document.to_file(str(tmp_path / "two.eaf"))
-    with pytest.raises(ReadError, match=r"has 2 tiers \(left, right\): keep one, or name one"):
-        read_segments(tmp_path / "two.eaf", fps=100)
+        for start in (0, 500) if tier.lower() == "primitive" else (0,):
+            document.add_annotation(tier, start, start + 500, f"in {tier}")
+    document.to_file(str(path))
+    return path
+
+
+@pytest.mark.parametrize("others", [(), ("primitive",)])
+def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path, others) -> None:
+    path = write_tiers(tmp_path / "two.eaf", "left", "right", *others)
+    with pytest.raises(ReadError, match=r"tiers \(left, right.*\): keep one, or name one"):
+        read_segments(path, fps=100)
+
+
+@pytest.mark.parametrize(
+    "tiers",
+    [("Exercise", "primitive"), ("Activity", "Primitive"), ("notes", "activity", "PRIMITIVE")],
+)
+def test_tiers_of_levels_are_known_in_any_case(tmp_path, tiers) -> None:
+    found = read_segments(write_tiers(tmp_path / "take.eaf", *tiers), fps=100, n_frames=100)
+    assert found.activities.label.tolist()[0] == f"in {tiers[-2]}"
+    assert found.primitives.label.tolist() == [f"in {tiers[-1]}"] * 2
 
 
 def test_pandas_reads_bids_events_and_the_sidecar_describes_every_column(tmp_path) -> None:

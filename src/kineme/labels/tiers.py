@@ -8,8 +8,8 @@ since a millisecond would hold several frames.
 The linked medium is the video in ``provenance["video"]``, with the recording's start in it, or else
 a video with the recording's name beside it.
 
-Reading uses the tiers ``activity`` and ``primitive``, or else the only tier with annotations.
-Annotations that depend on others have no times and are ignored.
+Reading uses the tiers ``activity`` and ``primitive`` in upper or lower case. If there is no tier of
+activities, the only other tier with annotations holds them. Annotations that depend on others have no times and are ignored.
 
 pympi-ling reads and writes these files, too, but does not guard against XML entities; tests compare
 both. Files with a document type are rejected, which prevents entity expansion.
@@ -154,16 +154,24 @@ def _add_medium(header: ET.Element, segmentation: Segmentation) -> None:
 
 
 def choose_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
-    """Return the tiers to read and their levels: those named after a level, or the only one."""
-    found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
-    if found or not names:
+    """Return the tiers to read and their levels: those named after a level, in any case.
+
+    Without a tier of activities, these are the only other tier.
+    """
+    levels: tuple[Level, ...] = get_args(Level)
+    # Exact names come last, so they take precedence.
+    ordered = sorted(names, key=lambda name: name in levels)
+    tiers = {name.casefold(): name for name in ordered if name.casefold() in levels}
+    found = {tiers[level]: level for level in levels if level in tiers}
+    others = [name for name in names if name.casefold() not in levels]
+    if "activity" in tiers or not others:
         return found
-    if len(names) > 1:
+    if len(others) > 1:
         raise ReadError(
             path,
             f"has {len(names)} tiers ({', '.join(names):.100}): keep one, or name one 'activity'",
         )
-    return {names[0]: "activity"}
+    return {others[0]: "activity", **found}
 
 
 class _Builder(NoEntities, ET.TreeBuilder):
