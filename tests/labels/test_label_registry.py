@@ -142,6 +142,17 @@ def test_a_table_of_many_recordings_is_no_table_of_one(tmp_path: Path) -> None:
         read_segments(path, fps=10)
 
 
+def test_observations_of_boris_are_recordings(tmp_path: Path) -> None:
+    path = tmp_path / "events.csv"
+    rows = "a,10,walk,START,0\na,10,walk,STOP,2\nb,20,run,START,1\nb,20,run,STOP,1.5\n"
+    path.write_text(f"Observation id,FPS,Behavior,Behavior type,Time\n{rows}")
+    with pytest.raises(ReadError, match=r"labels of 2 recordings \(a, b\): keep one"):
+        read_segments(path)
+    found = read_labels("takes/b.bvh", path, n_frames=40, fps=20)
+    assert found.activities.label.tolist() == ["", "run", ""]
+    assert (found.activities.start_frame[1], found.provenance["labels"]["format"]) == (20, "boris")
+
+
 def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None:
     path = tmp_path / "frames.txt"
     path.write_text("stand up\n" * 30 + "transition\n" * 10 + "run\n" * 20)

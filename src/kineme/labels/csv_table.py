@@ -42,7 +42,7 @@ from kineme.labels.delimited import (
 )
 from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span
+from kineme.labels.spans import Labels, Span, require_one_recording
 from kineme.recordings.times import is_date, parse_date
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation
@@ -92,7 +92,7 @@ def read(path: Path) -> Segmentation | Labels:
         comma = find_separator(first)
         # Tables of intervals have no such pair of columns.
         if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
-            return _read_intervals(path)
+            return require_one_recording(read_intervals(path), path)
         file.seek(0)
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _list_columns(rows, path, commas=comma != ",")
@@ -207,19 +207,6 @@ def _parse_time(cell: str, name: str, path: Path, line: int) -> float:
         return parse_date(cell.strip())
     value = parse_number(cell, name, path, line)
     return value / 1000 if name.endswith("_ms") else value
-
-
-def _read_intervals(path: Path) -> Labels:
-    """Read a table of intervals of one recording."""
-    found = read_intervals(path)
-    if len(found) > 1:
-        names = ", ".join(found)
-        raise ReadError(
-            path,
-            f"has labels of {len(found)} recordings ({names:.60}): keep one, or evaluate the "
-            "folder of them: kineme evaluate FOLDER --labels TABLE",
-        )
-    return next(iter(found.values()), Labels([]))
 
 
 def _parse_cluster(row: dict[str, str]) -> int:

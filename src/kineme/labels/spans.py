@@ -22,7 +22,7 @@ import math
 import re
 import unicodedata
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import isclose
@@ -195,6 +195,18 @@ def as_segmentation(
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
     return segmentation, tuple(warnings)
+
+
+def require_one_recording(found: Mapping[str, Labels], path: Path) -> Labels:
+    """Return the labels of the only recording of a table; raise ReadError if it has several."""
+    if len(found) > 1:
+        names = ", ".join(found)
+        raise ReadError(
+            path,
+            f"has labels of {len(found)} recordings ({names:.60}): keep one, or evaluate the "
+            "folder of them: kineme evaluate FOLDER --labels TABLE",
+        )
+    return next(iter(found.values()), Labels([]))
 
 
 def check_extent(

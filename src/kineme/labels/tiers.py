@@ -9,7 +9,8 @@ The linked medium is the video in ``provenance["video"]``, with the recording's 
 a video with the recording's name beside it.
 
 Reading uses the tiers ``activity`` and ``primitive`` in upper or lower case. If there is no tier of
-activities, the only other tier with annotations holds them. Annotations that depend on others have no times and are ignored.
+activities, the only other tier with annotations holds them. Annotations that depend on others have
+no times and are ignored.
 
 pympi-ling reads and writes these files, too, but does not guard against XML entities; tests compare
 both. Files with a document type are rejected, which prevents entity expansion.
