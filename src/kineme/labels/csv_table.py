@@ -28,7 +28,7 @@ from typing import Any, Literal
 
 from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ReadError
-from kineme.formats.delimited import find_separator, from_text, replace_decimal_comma
+from kineme.formats.delimited import find_separator, from_text
 from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
@@ -43,6 +43,7 @@ from kineme.labels.delimited import (
 from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, require_one_recording
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.recordings.times import is_date, parse_date
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation

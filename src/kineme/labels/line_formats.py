@@ -31,7 +31,6 @@ from pathlib import Path
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.formats.delimited import replace_decimal_comma
 from kineme.labels.csv_table import choose_roundest_rate
 from kineme.labels.delimited import (
     format_source,
@@ -45,6 +44,7 @@ from kineme.labels.delimited import (
 )
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, format_text
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 

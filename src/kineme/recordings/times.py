@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import is_number
 from kineme.errors import ParameterError
+from kineme.recordings.cells import parse_texts
 
 T = TypeVar("T")
 
@@ -162,8 +163,11 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
     if times.dtype.kind in "OUS":
         if any(isinstance(value, str) for value in times.ravel()[:9]):
             texts = [(value or "").strip() for value in times.tolist()]
-            return np.array([parse_date(text) if text else np.nan for text in texts]), None
-        if any(isinstance(value, datetime) for value in times.ravel()[:9]):
+            numbers, _ = parse_texts({0: texts})
+            if not numbers:
+                return np.array([parse_date(text) if text else np.nan for text in texts]), None
+            times = numbers[0]
+        elif any(isinstance(value, datetime) for value in times.ravel()[:9]):
             return np.array([_convert_date(value) for value in times.tolist()]), None
     numbers = np.asarray(times, np.float64)
     if unit or (unit := _find_unit_since_1970(numbers)):
