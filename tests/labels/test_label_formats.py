@@ -415,6 +415,16 @@ def test_elan_names_the_video_of_the_recording(tmp_path: Path) -> None:
     assert media() == [{**named, "TIME_ORIGIN": "1250"}]
 
 
+@pytest.mark.parametrize("row", ["1.5,3.0,walk", "1,5;3,0;walk", "1.5\t3.0\twalk"])
+def test_an_elan_export_of_one_tier_without_its_name(tmp_path: Path, row: str) -> None:
+    separator = max("\t;,", key=row.count)
+    head = ["Begin Time - ss.msec", "End Time - ss.msec", "Annotation"]
+    path = tmp_path / "walk.csv"
+    path.write_text(f'"#file:///take.eaf"\n{separator.join(head)}\n{row}\n')
+    (found,) = [row for row in read_segments(path, fps=100, n_frames=400).activities if row.label]
+    assert (found.label, found.start_s, found.stop_s) == ("walk", 1.5, 3.0)
+
+
 @pytest.mark.parametrize(
     "times",
     [
