@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from kineme.errors import ParameterError, ReadError
@@ -163,9 +164,21 @@ def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None
         read_segments(path, fps=10)
 
 
+@pytest.mark.parametrize("form", ["%d", "%.18e"])
+def test_states_that_numpy_saved_are_labels(tmp_path: Path, form: str) -> None:
+    states = np.repeat([-1, 0, 1, -1], [20, 30, 40, 10])
+    np.savetxt(tmp_path / "states.txt", states, form)
+    found = read_segments(tmp_path / "states.txt", fps=10, n_frames=100)
+    assert found.activities.label.tolist() == ["", "0", "1", ""]
+    assert found.activities.stop_frame.tolist() == [20, 50, 90, 100]
+    with pytest.raises(ReadError, match="has labels of 100 frames, but the recording has 120"):
+        read_segments(tmp_path / "states.txt", fps=10, n_frames=120)
+
+
 @pytest.mark.parametrize(
     ("name", "text"),
     [
+        ("changes.txt", "120\n340\n600\n"),
         ("recording.csv", "time,x,y\n0,1,2\n"),
         ("signals.txt", "0.1 0.2\n0.3 0.4\n"),
         ("signals.tsv", "time\tx\n0\t1\n"),

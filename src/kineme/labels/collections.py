@@ -32,6 +32,7 @@ from kineme.labels.spans import (
     Span,
     as_segmentation,
     check_extent,
+    check_frames,
     convert_clock_times,
     note_lost_labels,
 )
@@ -67,6 +68,7 @@ class LabelSource:
             label_format, content = read_content(self.path)
             name = label_format.name
         if isinstance(content, Labels):
+            check_frames(content, self.path, n_frames)
             timed = convert_clock_times(content, clock, length_s=n_frames / fps)
             labels = convert_to_frames(timed, fps, n_frames=n_frames)
             content, _ = as_segmentation(labels, self.path, name, fps=fps, n_frames=n_frames)
