@@ -65,6 +65,9 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
         "onset;duration;label\n0;2,0;walk\n2,5;1,5;jump\n",
         "name\tbegin (ms)\tend (ms)\nwalk\t0\t2000\njump\t2500\t4000\n",
         "Name,Start,End,Label\nAnn,0,2,walk\nAnn,2.5,4,jump\n",
+        "from,to,trial_type\n0,2,walk\n2.5,4,jump\n",
+        "t_start,t_end,label\n0,2,walk\n2.5,4,jump\n",
+        "start_time,end_time,trial_type\n0,2,walk\n2.5,4,jump\n",
         "start,end,label\n00:00.000,0:02,walk\n0:00:02.5,00:04,jump\n",
         "label,start,end,start_frame,stop_frame\njump,,,25,40\nwalk,,,0,20\n",
     ],
@@ -76,8 +79,11 @@ def test_columns_of_intervals_have_usual_names(tmp_path: Path, text: str) -> Non
     found = read_segments(path, fps=10)
     assert found.activities.label.tolist() == ["walk", "", "jump"]
     assert found.activities.stop_frame.tolist() == [20, 25, 40]
-    path.write_text("from,to,label\n0,40,walk\n")
+    path.write_text("first,last,label\n0,40,walk\n")
     with pytest.raises(ReadError, match="no header line with the columns 'start_s', 'stop_s'"):
+        read_segments(path, fps=10)
+    path.write_text("time_s,frame,event\n0.5,5,left foot strike\n")
+    with pytest.raises(ReadError, match="table of events, .*: kineme events --labels FILE writes"):
         read_segments(path, fps=10)
 
 

@@ -58,10 +58,10 @@ SPANS = (
 )
 """Pairs of columns that give the span of a label, preferred ones first."""
 ALIASES = {
-    "start": ("start", "begin", "onset", "start_time", "begin_time"),
-    "stop": ("stop", "end", "offset", "stop_time", "end_time"),
+    "start": ("start", "begin", "onset", "start_time", "begin_time", "t_start", "from"),
+    "stop": ("stop", "end", "offset", "stop_time", "end_time", "t_stop", "t_end", "to"),
     "duration": ("duration",),
-    "label": ("label", "name", "activity"),
+    "label": ("label", "name", "activity", "trial_type"),
     "recording": ("recording", "file", "filename", "file_name"),  # a trial may be a number
 }
 """Usual names of columns, preferred ones first, see `rename_columns`."""
@@ -91,8 +91,15 @@ def read(path: Path) -> Segmentation | Labels:
     with path.open(encoding="utf-8-sig", newline="") as file:
         first = file.readline()
         comma = find_separator(first)
+        names = set(next(csv.reader([first], delimiter=comma), []))
+        if {"time_s", "event"} <= names:
+            raise ReadError(
+                path,
+                "is a table of events, which have no duration: kineme events --labels FILE writes "
+                "the spans between them",
+            )
         # Tables of intervals have no such pair of columns.
-        if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
+        if not {"level", "start_frame"} <= names:
             return require_one_recording(read_intervals(path), path)
         file.seek(0)
         rows = csv.DictReader(file, strict=True, delimiter=comma)
