@@ -242,8 +242,11 @@ def read_table(path: Path) -> Labels:
     header = next(filter(str.strip, texts), "")
     # Spreadsheets save the table with commas or semicolons, and quotes around cells with them.
     separator = "\t" if "\t" in header else find_separator(header)
-    quoting = csv.QUOTE_NONE if separator == "\t" else csv.QUOTE_MINIMAL
-    rows = csv.reader(texts, delimiter=separator, quoting=quoting)
+    rows = csv.reader(
+        texts,
+        delimiter=separator,
+        quoting=csv.QUOTE_NONE if separator == "\t" else csv.QUOTE_MINIMAL,
+    )
     lines = [(line, row) for line, row in enumerate(rows, 1) if any(row)]
     if not lines:
         return Labels([])

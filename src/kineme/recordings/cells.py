@@ -44,7 +44,7 @@ def parse_texts(columns: Mapping[int, Iterable[Any]]) -> tuple[dict[int, Floats]
     Examples
     --------
     >>> parse_texts({0: ["9,81", None], 2: ["left", "left"]})
-    ({0: array([9.81,   nan])}, ('numbers have a decimal comma',))
+    ({0: array([9.81,  nan])}, ('numbers have a decimal comma',))
     """
     texts = {i: [str(cell).strip() for cell in column] for i, column in columns.items()}
     empty = EMPTY | {"<na>"}  # NA of pandas

@@ -163,10 +163,10 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
     if times.dtype.kind in "OUS":
         if any(isinstance(value, str) for value in times.ravel()[:9]):
             texts = [(value or "").strip() for value in times.tolist()]
-            numbers, _ = parse_texts({0: texts})
-            if not numbers:
+            parsed, _ = parse_texts({0: texts})
+            if not parsed:
                 return np.array([parse_date(text) if text else np.nan for text in texts]), None
-            times = numbers[0]
+            times = parsed[0]
         elif any(isinstance(value, datetime) for value in times.ravel()[:9]):
             return np.array([_convert_date(value) for value in times.tolist()]), None
     numbers = np.asarray(times, np.float64)
