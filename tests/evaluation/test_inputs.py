@@ -137,7 +137,7 @@ def folder_scores(path, found: Segmentation) -> dict[str, float]:
 
 def test_primitives_alone_are_repetitions_with_pauses_between_them(tmp_path, counted_wrong) -> None:
     rows = ["0,1.6,squat,primitive,", "2,4,squat,primitive,", "4,6,squat,primitive,",
-            "8.5,9,jump,primitive,"]  # fmt: skip
+            "6.8,9,jump,primitive,"]  # fmt: skip
     labels_as(tmp_path / "truth.csv", rows, LEVELS)
     truth = read_truth(tmp_path / "truth.csv", counted_wrong)
     assert (truth.labels, truth.counts) == (("squat", "jump"), (3, 1))

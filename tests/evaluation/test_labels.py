@@ -180,7 +180,7 @@ def test_labels_without_gaps_score_as_a_truth_of_exact_borders(labels, data):
 def test_a_short_transition_is_one_border_and_a_long_one_two():
     truth = Truth(("a", "b"), [18], [20], [22], 60, 10.0)
     short = Labelling([0, 17, 25, 60], ("1", TRANSITION, "2"), 10.0)
-    long = Labelling([0, 17, 27, 60], ("1", TRANSITION, "2"), 10.0)
+    long = Labelling([0, 17, 28, 60], ("1", TRANSITION, "2"), 10.0)
     assert border_score(of(truth, short)) == (1, 1, 1)
     assert border_score(of(truth, long)).precision == 1 / 2
     assert (

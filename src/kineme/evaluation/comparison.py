@@ -24,7 +24,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
@@ -114,6 +114,9 @@ class Comparison:
         default -1 is a cluster like all others.
     intervals : Spans, optional
         Both sides as intervals; by default the runs of these numbers.
+    segments : array_like of int, (frames,), optional
+        Cluster of each frame for scores of segments, if frames were removed: without parts of
+        removed segments that remain next to them. By default ``found``.
 
     Raises
     ------
@@ -135,13 +138,15 @@ class Comparison:
     mapping: Mapping[int, int] | None = None
     transitions: bool = False
     intervals: Spans | None = None
+    segments: Ints = None  # type: ignore[assignment]
     _results: dict[Callable[[Comparison], Any], Any] = field(
         default_factory=dict, init=False, repr=False
     )
 
     def __post_init__(self) -> None:
-        for name in ("truth", "found"):
-            object.__setattr__(self, name, np.asarray(getattr(self, name), np.int64))
+        segments = self.found if self.segments is None else self.segments
+        for name, side in (("truth", self.truth), ("found", self.found), ("segments", segments)):
+            object.__setattr__(self, name, np.asarray(side, np.int64))
         if self.truth.shape != self.found.shape or self.truth.ndim != 1 or not self.truth.size:
             raise ParameterError(
                 f"truth and result need one label for each of the same frames, not shapes "
@@ -184,8 +189,11 @@ class Comparison:
     @cached_property
     def mapped(self) -> Ints:
         """Return the class of the cluster of each frame; below 0 if it has none."""
+        return self._map(self.found)
+
+    def _map(self, found: Ints) -> Ints:
         mapping = map_clusters([self]) if self.mapping is None else self.mapping
-        clusters, inverse = np.unique(self.found, return_inverse=True)
+        clusters, inverse = np.unique(found, return_inverse=True)
         # Clusters without a class get distinct numbers below -1, which means transition.
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
         return np.asarray(classes, np.int64)[inverse]
@@ -248,16 +256,21 @@ class Comparison:
         )
         counted = np.zeros(actions.frames, np.bool_)
         counted[start:stop] = True
+        slack = actions.tolerance_s * actions.fps
         intervals = Spans(
             inner,
-            spans.activities.within(counted),
+            spans.activities.merged().within(counted, slack=slack),
             primitives=spans.primitives.within(counted),
             positions=None if spans.positions is None else np.asarray(spans.positions)[counted],
             features=None if spans.features is None else np.asarray(spans.features)[counted],
             repetitions=self.repetitions,
         )
         return replace(
-            self, truth=self.truth[counted], found=self.found[counted], intervals=intervals
+            self,
+            truth=self.truth[counted],
+            found=self.found[counted],
+            intervals=intervals,
+            segments=_select_frames(self.found, counted, slack),
         )
 
     @cached_property
@@ -268,7 +281,7 @@ class Comparison:
     @cached_property
     def mapped_runs(self) -> list[Run]:
         """Return the runs of frames whose clusters are mapped to one class."""
-        return find_runs(self.mapped)
+        return find_runs(self._map(self.segments))
 
     @cached_property
     def found_runs(self) -> list[Run]:
@@ -340,8 +353,8 @@ def compare(
     if not counted.any():
         raise ParameterError("the labels do not cover this recording: every frame is unlabelled")
     # Remove frames without a label from both sides.
-    compared = Comparison(labels[counted], clusters[counted], found.fps)
-    spans = compared.spans
+    segments = _select_frames(clusters, counted, LABELS_TOLERANCE_S * found.fps)
+    spans = Comparison(labels[counted], segments, found.fps).spans
     single = make_labelling(found.primitives or found.activities, fps=truth.fps)
     actions = make_truth(truth, n_frames=truth.n_frames, fps=truth.fps)
     intervals = replace(
@@ -350,7 +363,9 @@ def compare(
         primitives=single.within(counted) if len(found.primitives) else spans.primitives,
         repetitions=Repetitions(actions, single),
     )
-    return replace(compared, intervals=intervals)
+    return Comparison(
+        labels[counted], clusters[counted], found.fps, intervals=intervals, segments=segments
+    )
 
 
 def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
@@ -400,6 +415,12 @@ def find_runs(labels: ArrayLike) -> list[Run]:
     # + 1: a difference at i is a change between frames i and i + 1.
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
+
+
+def _select_frames(found: Ints, counted: NDArray[np.bool_], slack: float) -> Ints:
+    """Return the numbers of counted frames, see `Labelling.within`."""
+    kept = Labelling.from_frames(found, fps=1).within(counted, slack=slack)
+    return kept.per_frame().astype(np.int64)
 
 
 def _expand_to_frames(segmentation: Segmentation, values: ArrayLike) -> Ints:

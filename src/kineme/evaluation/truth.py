@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Ints
 from kineme._util.checks import as_floats, as_texts
 from kineme.errors import ParameterError
+from kineme.recordings.arrays import find_spans
 from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment, SegmentTable, choose_kind
@@ -37,6 +38,8 @@ UNLABELLED = -1
 """Number of `TRANSITION` if labels are numbers."""
 TOLERANCE_S = 0.25
 """Tolerance of a border beyond the span in which people put it, s."""
+SHORT_TRANSITION_S = 1.0
+"""Length up to which a transition is one border, s; a longer one has two."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,10 +142,30 @@ class Labelling:
         values = [numbers.get(label, UNLABELLED) for label in self.labels]
         return np.repeat(np.array(values, np.int64), np.diff(self.borders))
 
-    def within(self, frames: NDArray[np.bool_]) -> Labelling:
-        """Remove the frames that are False; intervals without frames are dropped."""
+    def find_short_transitions(self) -> NDArray[np.bool_]:
+        """Return whether each interval is a transition of up to 1 s between two others."""
+        is_short = np.diff(self.borders) <= SHORT_TRANSITION_S * self.fps
+        is_short &= np.array([label == TRANSITION for label in self.labels])
+        # A transition at an end of the recording has only one border anyway.
+        is_short[[0, -1]] = False
+        return is_short
+
+    def within(self, frames: NDArray[np.bool_], *, slack: float = 0.0) -> Labelling:
+        """Remove the frames that are False; intervals without frames are dropped.
+
+        An interval that reaches up to ``slack`` frames into kept frames from removed ones is
+        dropped, too: it is the inexact border of an interval that was removed.
+        """
+        borders = self.borders.copy()
+        for first, last in find_spans(frames).tolist():
+            begins = int(np.searchsorted(borders, first, "right"))  # the next border after `first`
+            if borders[begins - 1] < first < borders[begins] <= min(first + slack, last - 1):
+                borders[begins] = first
+            ends = int(np.searchsorted(borders, last)) - 1  # the border before `last`
+            if max(last - slack, first + 1) <= borders[ends] < last < borders[ends + 1]:
+                borders[ends] = last
         # New position of each border: the number of kept frames before it.
-        return self._move(np.concatenate([[0], np.cumsum(frames)])[self.borders], self.fps)
+        return self._move(np.concatenate([[0], np.cumsum(frames)])[borders], self.fps)
 
     def merged(self) -> Labelling:
         """Merge neighbours with equal labels."""
@@ -273,22 +296,19 @@ class Truth:
         counts: Sequence[int | None] = (),
         tolerance_s: float = TOLERANCE_S,
     ) -> Truth:
-        """Create a truth: transitions between two actions become uncertain borders.
+        """Create a truth: short transitions between two actions become uncertain borders.
 
-        The middle of a transition is the mean. A transition at the start or the end of
-        the recording stays an action. There is one count for each interval.
+        The middle of a transition of up to 1 s is the mean. A longer one, or one at the start or
+        the end of the recording, stays an action. There is one count for each interval.
         """
         if len(counts) not in (0, len(labelling.labels)):
             raise ParameterError(
                 f"counts has {len(counts)} entries for {len(labelling.labels)} intervals: give one "
                 "for each, None if unknown"
             )
-        # Transitions between two actions are borders; at the ends they stay rows.
-        middle = [
-            0 < i < len(labelling.labels) - 1 and label == TRANSITION
-            for i, label in enumerate(labelling.labels)
-        ]
-        rows = [i for i, between in enumerate(middle) if not between]
+        # Short transitions between two actions are borders; at the ends they stay rows.
+        middle = labelling.find_short_transitions()
+        rows = np.flatnonzero(~middle).tolist()
         # A border's span is from the end of one action to the start of the next.
         earliest = labelling.stops[rows[:-1]]
         latest = labelling.starts[rows[1:]]
