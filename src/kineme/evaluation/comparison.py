@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
+from kineme._util.checks import check_type
 from kineme.errors import ParameterError
 from kineme.evaluation.truth import (
     TRANSITION,
@@ -35,6 +36,7 @@ from kineme.evaluation.truth import (
     Labelling,
     Truth,
     add_repetitions,
+    choose_comparison_rate,
     make_labelling,
     make_truth,
 )
@@ -156,26 +158,39 @@ class Comparison:
     @classmethod
     def of(
         cls,
-        truth: Truth,
-        clusters: Labelling,
+        truth: Truth | Segmentation,
+        found: Segmentation | Labelling,
         *,
-        activities: Labelling | None = None,
-        primitives: Labelling | None = None,
         positions: ArrayLike | None = None,
         features: ArrayLike | None = None,
     ) -> Comparison:
-        """Compare a result with a truth that has uncertain borders, at the truth's frame rate.
+        """Compare a result with a truth that has uncertain borders.
 
         The parameters are those of `kineme.evaluation.evaluate`.
 
         Raises
         ------
         ParameterError
-            The labels have another length than the truth.
+            The result has another length than the truth, or one of them is something else.
         """
-        # Activities and primitives are the clusters by default.
+        advice = "kineme.read_segments(path) reads labels, kineme.segment(recording) gives a result"
+        check_type(truth, (Segmentation, Truth), "evaluate", advice)
+        check_type(found, (Segmentation, Labelling), "evaluate", advice)
+        if isinstance(found, Segmentation):
+            rows = found.activities
+            activities = primitives = clusters = make_labelling(rows, fps=found.fps)
+            if len(found.primitives):
+                primitives = make_labelling(found.primitives, fps=found.fps)
+            # If no activity has a cluster or label, compare primitives.
+            if not np.any((rows.cluster >= 0) | (rows.label != "")):
+                clusters = primitives
+        else:
+            activities = primitives = clusters = found
+        if isinstance(truth, Segmentation):
+            n_frames, fps = choose_comparison_rate(activities.frames, activities.fps)
+            truth = make_truth(add_repetitions(truth), n_frames=n_frames, fps=fps)
         groups, spans, units = (
-            (level or clusters).at(frames=truth.frames, fps=truth.fps)
+            level.at(frames=truth.frames, fps=truth.fps)
             for level in (clusters, activities, primitives)
         )
         return cls(
@@ -331,6 +346,8 @@ def compare(
     >>> bool((compared.mapped == compared.truth).all())
     True
     """
+    for table in (truth, found):
+        check_type(table, Segmentation, "compare", "kineme.read_segments(path) reads one")
     if truth.n_frames != found.n_frames:
         raise ParameterError(
             f"the labels have {truth.n_frames} frames, but the result has {found.n_frames}"

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import floor
 from typing import Any
 
 import numpy as np
@@ -38,6 +39,8 @@ UNLABELLED = -1
 """Number of `TRANSITION` if labels are numbers."""
 TOLERANCE_S = 0.25
 """Tolerance of a border beyond the span in which people put it, s."""
+FPS = 30.0
+"""Highest rate of comparison, Hz."""
 SHORT_TRANSITION_S = 1.0
 """Length up to which a transition is one border, s; a longer one has two."""
 
@@ -429,6 +432,13 @@ def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
         return actions
     repetitions = make_labelling(truth.primitives, fps=truth.fps).at(frames=n_frames, fps=fps)
     return replace(actions, repetitions=repetitions)
+
+
+def choose_comparison_rate(n_frames: int, fps: float) -> tuple[int, float]:
+    """Return number of frames and rate of comparison of a result: 30 Hz, or its own if lower."""
+    rate = min(FPS, fps)
+    # Number of frames up to the last one; 1e-9 guards against rounding.
+    return floor((n_frames - 1) * rate / fps + 1e-9) + 1, rate
 
 
 def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:
