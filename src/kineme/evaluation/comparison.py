@@ -140,13 +140,13 @@ class Comparison:
     mapping: Mapping[int, int] | None = None
     transitions: bool = False
     intervals: Spans | None = None
-    segments: Ints = None  # type: ignore[assignment]
+    segments: ArrayLike = ()
     _results: dict[Callable[[Comparison], Any], Any] = field(
         default_factory=dict, init=False, repr=False
     )
 
     def __post_init__(self) -> None:
-        segments = self.found if self.segments is None else self.segments
+        segments = self.segments if np.size(self.segments) else self.found
         for name, side in (("truth", self.truth), ("found", self.found), ("segments", segments)):
             object.__setattr__(self, name, np.asarray(side, np.int64))
         if self.truth.shape != self.found.shape or self.truth.ndim != 1 or not self.truth.size:
@@ -206,7 +206,8 @@ class Comparison:
         """Return the class of the cluster of each frame; below 0 if it has none."""
         return self._map(self.found)
 
-    def _map(self, found: Ints) -> Ints:
+    def _map(self, found: ArrayLike) -> Ints:
+        """Return the class of the cluster of each of these frames."""
         mapping = map_clusters([self]) if self.mapping is None else self.mapping
         clusters, inverse = np.unique(found, return_inverse=True)
         # Clusters without a class get distinct numbers below -1, which means transition.

@@ -156,19 +156,23 @@ class Labelling:
     def within(self, frames: NDArray[np.bool_], *, slack: float = 0.0) -> Labelling:
         """Remove the frames that are False; intervals without frames are dropped.
 
-        An interval that reaches up to ``slack`` frames into kept frames from removed ones is
-        dropped, too: it is the inexact border of an interval that was removed.
+        Parts of up to ``slack`` frames of intervals that are mostly removed are dropped, too: they
+        only show that borders are inexact.
         """
+        # Number of kept frames before each frame.
+        kept = np.concatenate([[0], np.cumsum(frames)])
         borders = self.borders.copy()
+        is_removed = 2 * np.diff(kept[borders]) < np.diff(borders)
         for first, last in find_spans(frames).tolist():
-            begins = int(np.searchsorted(borders, first, "right"))  # the next border after `first`
-            if borders[begins - 1] < first < borders[begins] <= min(first + slack, last - 1):
-                borders[begins] = first
-            ends = int(np.searchsorted(borders, last)) - 1  # the border before `last`
-            if max(last - slack, first + 1) <= borders[ends] < last < borders[ends + 1]:
-                borders[ends] = last
-        # New position of each border: the number of kept frames before it.
-        return self._move(np.concatenate([[0], np.cumsum(frames)])[borders], self.fps)
+            # The intervals that reach into this span from before it, and from after it.
+            into = int(np.searchsorted(borders, first)) - 1
+            if into >= 0 and is_removed[into] and borders[into + 1] <= min(first + slack, last - 1):
+                borders[into + 1] = first
+            back = int(np.searchsorted(borders, last)) - 1
+            if is_removed[back] and borders[back] >= max(last - slack, first + 1):
+                borders[back] = last
+        # The new position of each border.
+        return self._move(kept[borders], self.fps)
 
     def merged(self) -> Labelling:
         """Merge neighbours with equal labels."""
