@@ -259,6 +259,8 @@ def test_a_data_frame_is_measured_like_signals(walks) -> None:
         np.testing.assert_array_equal(kineme.cycles(data, table).curves, wanted.curves)
     with pytest.raises(ParameterError, match="cycles takes Motion or Signals, not int"):
         kineme.cycles(5, walks.truth)
+    with pytest.raises(ParameterError, match="cycles takes a Segmentation, not NoneType"):
+        kineme.cycles(frame, None)
 
 
 @pytest.mark.parametrize("anchor", ["knee_r max", "knee_r > 40"])

@@ -220,17 +220,10 @@ def _check_inputs(
 ) -> tuple[list[Motion | Signals], list[Segmentation], list[Sequence[Signals]]]:
     """Return recordings, tables and signals as lists; raise ParameterError if they do not match."""
     advice = "beside= takes a list of signals"
-    tables = _check_list(
-        [segments] if isinstance(segments, Segmentation) else segments,
-        (Segmentation,),
-        "kineme.segment(recording) gives one",
-    )
-    one = isinstance(recordings, Motion | Signals) or not isinstance(recordings, Sequence)
+    tables = _check_list(segments, (Segmentation,), "kineme.segment(recording) gives one")
+    several = recordings if isinstance(recordings, Sequence) else [recordings]
     items = _check_list(
-        [
-            _convert_data(each, *tables[number : number + 1])
-            for number, each in enumerate([recordings] if one else recordings)
-        ],
+        [_convert_data(each, *tables[i : i + 1]) for i, each in enumerate(several)],
         (Motion, Signals),
         "kineme.read(path) gives a recording",
     )
@@ -267,11 +260,11 @@ def _convert_data(data: Any, table: Segmentation | None = None) -> Any:
 
 
 def _check_list(values: Any, kinds: tuple[type, ...], advice: str) -> list[Any]:
-    """Return the values as a list; raise ParameterError if one is of another type."""
-    check_type(values, Sequence, "cycles", advice)
-    for each in values:
+    """Return one value or several as a list; raise ParameterError if one is of another type."""
+    items = list(values) if isinstance(values, Sequence) else [values]
+    for each in items:
         check_type(each, kinds, "cycles", advice)
-    return list(values)
+    return items
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
