@@ -14,6 +14,7 @@ from kineme._util.arrays import Floats, interpolate_frames
 from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
+from kineme.recordings.cells import parse_texts
 from kineme.recordings.column_names import (
     describe_alternation,
     is_owner,
@@ -51,9 +52,10 @@ def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None =
         are left out.
     fps : float, optional
         Rows per second. Rows are then frames, and the index is ignored.
-    times : (rows,) array_like, optional
-        Time of each row: numbers in any unit from any origin, dates, or texts of these. By default
-        the dates in the index, the coordinate ``time``, or a column of that name.
+    times : (rows,) array_like or str, optional
+        Time of each row: numbers in any unit from any origin, dates, or texts of these; or the
+        name of a column of a data frame. By default the dates in the index, the coordinate
+        ``time``, or a column of that name.
 
     Returns
     -------
@@ -85,9 +87,18 @@ def read_samples(
 
     ``assumed_fps`` is used if neither data nor caller tell the rate.
     """
+    unit = None
+    if isinstance(times, str):
+        if times not in getattr(data, "columns", ()):
+            raise ParameterError(
+                f"times is {times!r:.60}: give a time for each row, or the name of a column of a "
+                "data frame"
+            )
+        unit = find_time_unit(times)
+        times, data = data[times], data.drop(columns=times)
     samples = _convert_samples(data)
     if times is not None:
-        samples = replace(samples, times=times, unit=None)
+        samples = replace(samples, times=times, unit=unit)
     timing, notes = _find_rate_and_frames(samples, fps, times, assumed_fps)
     values, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
     notes = [*samples.notes, *notes, *timing.notes, *filled]
@@ -206,6 +217,9 @@ def _convert_frame(frame: Any) -> _Samples:
     names = list(frame.columns)
     by_place = getattr(frame, "iloc", None)
     columns = [frame[n] if by_place is None else by_place[:, i] for i, n in enumerate(names)]
+    texts = {i: c for i, c in enumerate(columns) if str(c.dtype) in ("object", "str", "string")}
+    parsed, remarks = parse_texts(texts)
+    columns = [parsed.get(i, column) for i, column in enumerate(columns)]
     kinds = [getattr(column.dtype, "kind", "O") for column in columns]
     called = [*map(name_column, names)]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
@@ -222,7 +236,7 @@ def _convert_frame(frame: Any) -> _Samples:
     if error := describe_alternation(owners):
         raise ParameterError(error)
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
-    notes: list[Note | str] = []
+    notes: list[Note | str] = [*remarks]
     if left:
         notes.append(f"columns that are not channels: {', '.join(left)}")
     values = np.column_stack([_convert_numbers(columns[i]) for i in chosen])

@@ -148,7 +148,7 @@ def test_order_signs_and_zeros_of_the_features_change_nothing(seed, turn, shift)
 def test_threads_and_repetition_change_nothing(preset, set_threads) -> None:
     parts_of = attrgetter(
         *("features", "fine", "borders", "primitives", "segments.labels", "segments.clusters"),
-        *("confidence.clusters", "evidence.sharpness", "evidence.repeated"),
+        *("confidence.clusters", "evidence.sharpness", "evidence.repetition_similarity"),
     )
     found = []
     for threads in (1, 5, 5):
