@@ -95,6 +95,17 @@ def test_rows_become_even_frames_whatever_their_times_and_pieces(case):
         assert said == heard
 
 
+@pytest.mark.parametrize("case", ["milliseconds since 1970", "set back", "summer time"])
+def test_the_clock_shows_the_times_of_the_rows(case):
+    rows, times, *_ = CASES[case]
+    taken = Intake(FPS, ["x", "y"])
+    for row, time in zip(rows, times, strict=True):
+        taken.add(row[None], np.array([time]))
+    taken.finish()
+    shown = taken.make_clock().time([0, (taken.emitted - 1) / FPS])
+    np.testing.assert_allclose(shown, times[[0, -1]] / taken.per_second, atol=0.5 / FPS, rtol=0)
+
+
 @pytest.mark.parametrize("case", ["packets of ten", "one row lost", "some NaN", "every row twice"])
 def test_a_straight_line_stays_one(case):
     rows, times, *_ = CASES[case]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import kineme
@@ -139,6 +140,47 @@ def test_clusters_of_an_earlier_result_keep_their_numbers_and_labels(rows):
     events = list(push_pieces(stream, two_exercises(seed=1)[250:], [50]))
     labels = [e.label for e in events if isinstance(e, ActivityEnded) and e.is_final]
     assert labels[-2:] == ["b", "a"]
+
+
+def test_what_a_stream_cannot_know_is_refused(rows):
+    earlier = kineme.Signals(rows, FPS, ["x", "y"])
+    table = kineme.segment(earlier)
+    for known, reason in (
+        (table, "must be"),
+        ((rows, table), "not ndarray: kineme.as_signals"),
+        ((earlier[:300], table), "900 frames, but the recording has 300"),
+        ((kineme.Signals(rows, 2 * FPS, ["x", "y"]), table), "resample.recording, 25. and its"),
+        ((earlier.select(["x"]), table), "no channel 'y'"),
+    ):
+        with pytest.raises(ParameterError, match=reason):
+            make_stream(known=known)
+
+
+def test_columns_are_taken_by_their_names(rows, told):
+    frame = pd.DataFrame({"y": rows[:, 1], "note": "", "x": rows[:, 0]})
+    stream = make_stream()
+    with pytest.raises(ParameterError, match="no x, but y, note, z"):
+        stream.push(frame.rename(columns={"x": "z"}))
+    events = stream.push(frame.iloc[0])
+    assert events + stream.push(frame[1:]) + stream.finish() == told[1]
+
+
+def test_segments_have_the_dates_of_their_rows(rows, tmp_path):
+    stream = make_stream()
+    dates = np.datetime64("2026-11-28T09:30") + 40 * np.arange(len(rows)).astype("m8[ms]")
+    stream.push(rows[:500], dates[:500])
+    stream.save(tmp_path / "stream.npz")
+    stream = Stream.load(tmp_path / "stream.npz")
+    stream.push(rows[500:], dates[500:])
+    assert stream.segmentation.start_times()[0] == "2026-11-28T09:30:00.000+00:00"
+
+
+def test_no_activity_ends_before_it_begins():
+    angle = np.arange(0, 30, 1 / FPS) * 2 * np.pi / 5  # parts of slow repetitions look different
+    rows = np.column_stack([np.cos(angle) ** 5, np.sin(angle) ** 3])
+    rows += np.random.default_rng(0).normal(0, 0.05, rows.shape)
+    ended = [e for e in push_pieces(make_stream(), rows, [50]) if isinstance(e, ActivityEnded)]
+    assert all(e.start_s <= e.stop_s for e in ended)
 
 
 def test_a_long_hole_is_a_gap_and_does_not_fill_the_memory(rows):

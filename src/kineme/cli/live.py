@@ -60,7 +60,7 @@ def live(
         str, option(INPUT, "Local address for --osc; 0.0.0.0 for any.")
     ] = "127.0.0.1",
     delay: Annotated[
-        float, option(METHOD, "Delay in seconds after which segments are final.", min=0.1)
+        float, option(METHOD, "Seconds until the start of an activity is final.", min=0.1)
     ] = 5.0,
     interval: Annotated[float, option(METHOD, "Seconds between analyses.", min=0.1)] = 2.0,
     output: Annotated[
@@ -82,7 +82,8 @@ def live(
     """Segment and count while a recording is made.
 
     Rows are read as CSV or JSON from standard input, unless another source is given. Results are
-    provisional at first and final after --delay. Ctrl+C ends the recording.
+    provisional at first. The start of an activity is final after --delay, its end and its
+    repetitions when the next one begins. Ctrl+C ends the recording.
 
     For example: sensor | kineme live --fps 100 --record take
     """

@@ -26,7 +26,7 @@ from kineme.recordings.regular import (
     Timing,
     find_longest_filled,
 )
-from kineme.recordings.times import UNITS_OF_TIME, is_near_full_hour, is_unix_time
+from kineme.recordings.times import UNITS_OF_TIME, Clock, is_near_full_hour, is_unix_time
 
 BLOCK_S = 0.1
 """Seconds of frames that are made at once."""
@@ -78,6 +78,8 @@ class Intake:
     per_second: float = 0.0  # units of the times per second; 0 while the unit is unknown
     ahead_s: float = 0.0  # seconds by which the clock is ahead of the stream
     last_s: float = np.nan  # time of the last row; nan before the first row
+    # (spans, 2): second of the stream from which the clock runs without a step, and its time there.
+    clock_spans: Floats = field(default_factory=lambda: np.empty((0, 2)))
     emitted: int = 0  # next frame
     run_start: int = 0  # first frame after the last hole
     # Frames and rows since the rate was last checked, and whether it differed then.
@@ -135,6 +137,13 @@ class Intake:
         self._emit(pieces, finished=True)
         return pieces
 
+    def make_clock(self) -> Clock | None:
+        """Return the clock of the times; None if they are the seconds of the stream."""
+        seconds, times = self.clock_spans.T.tolist()
+        if len(times) > 1 or any(abs(time) > 0.5 / self.fps for time in times):
+            return Clock(seconds, times)
+        return None
+
     def _place(self, rows: Floats, times: Floats, pieces: list[Piece]) -> None:
         """Find the frame of each row; hold rows whose time needs the next row."""
         self.held_rows, self.held_times = rows[:0], times[:0]
@@ -153,7 +162,8 @@ class Intake:
         while start < len(times):
             seconds = times[start:] / self.per_second - self.ahead_s
             if np.isnan(self.last_s):  # the first row is at frame 0
-                self.last_s, self.ahead_s = 0.0, float(seconds[0])
+                self.last_s = 0.0
+                self._set_clock(float(seconds[0]), 0.0)
                 self._append(np.zeros(1), rows[start : start + 1])
                 start += 1
                 continue
@@ -202,13 +212,20 @@ class Intake:
         for shift in SHIFTS_S:
             if abs(step - shift) <= near and (shift < 0 or is_on_the_hour):
                 self._say(pieces, "the clock changes by an hour or a day: corrected")
-                self.ahead_s += shift
+                self._set_clock(self.ahead_s + shift, self.last_s + 1 / self.fps)
                 return True
         if step < 0:
             pieces.append(f"the clock goes back by {-step:.4g} s: the stream continues after a gap")
             # Far enough from the last row to make a gap.
-            self.ahead_s += step - (LONGEST_S + 2 / self.fps)
+            hole = LONGEST_S + 2 / self.fps
+            self._set_clock(self.ahead_s + step - hole, self.last_s + hole)
         return step < 0
+
+    def _set_clock(self, ahead_s: float, second: float) -> None:
+        """Store by how much the clock is ahead from a second of the stream on."""
+        self.ahead_s = ahead_s
+        before = self.clock_spans[self.clock_spans[:, 0] < second]
+        self.clock_spans = np.concatenate([before, [[second, second + ahead_s]]])
 
     def _append(self, at: Floats, rows: Floats) -> None:
         """Store rows that have a frame; spread the packet before them."""

@@ -32,8 +32,9 @@ from kineme.live.storage import Announced, StreamState, load_state, save_state
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import as_rate
+from kineme.recordings.column_names import name_column
 from kineme.recordings.times import UNITS_OF_TIME, as_seconds
-from kineme.segments.segmentation import Segmentation
+from kineme.segments.segmentation import Segmentation, check_same_length
 
 PIECE = 1000
 """Rows that are processed at once if many are pushed."""
@@ -53,21 +54,23 @@ class Stream:
     skeleton : Skeleton, optional
         Skeleton of a body. Rows are then the positions of its joints in metres, y up.
     delay : float
-        Seconds after which the start of an activity is final. A shorter delay makes more errors.
+        Seconds after which the start of an activity is final at the earliest, and with it the end
+        and the repetitions of the activity before. A shorter delay makes more errors.
     memory : float
         Seconds of the recent past that are segmented each time.
     interval : float
         Seconds between two segmentations of the recent past.
     known : (recording, segments), optional
-        An earlier result with the same channels or joints. Clusters that are recognised keep
-        their numbers and labels.
+        An earlier result with the same channels or joints, and the same rate. Clusters that are
+        recognised keep their numbers and labels.
     **options
         Options of `kineme.segment`: ``preset``, ``effectors``, ``emg``, constants of the preset.
 
     Raises
     ------
     ParameterError
-        Neither channels nor a skeleton, or both; an invalid value of an option.
+        Neither channels nor a skeleton, or both; an invalid value of an option; an earlier result
+        that does not fit.
 
     Examples
     --------
@@ -122,7 +125,7 @@ class Stream:
             next_look=self._frames(interval),
         )
         if known is not None:
-            self._remember(*known)
+            self._remember(known)
 
     def __repr__(self) -> str:
         what = f"{self.layout.n_values} channels"
@@ -137,8 +140,8 @@ class Stream:
 
         Parameters
         ----------
-        values : (channels,), (rows, channels) or (rows, joints, 3) array_like
-            NaN where a value is missing.
+        values : (channels,), (rows, channels) or (rows, joints, 3) array_like or data frame
+            NaN where a value is missing. Columns of a data frame are taken by their names.
         times : (rows,) array_like, optional
             Time of each row: numbers in any unit since any origin, dates, or texts.
             Without times, rows are frames at `fps`.
@@ -154,8 +157,8 @@ class Stream:
         Raises
         ------
         ParameterError
-            Rows of the wrong shape, invalid times, or an unknown unit. The stream continues
-            without them.
+            Rows of the wrong shape or without a channel, invalid times, or an unknown unit. The
+            stream continues without them.
         """
         if self._state.is_finished:
             raise ParameterError("the stream is finished: make a new one")
@@ -181,7 +184,8 @@ class Stream:
 
     def _as_rows(self, values: ArrayLike) -> Floats:
         """Return rows as a (rows, values) array, with NaN for every value that is not finite."""
-        rows, n_values = as_floats(values, "rows"), self.layout.n_values
+        n_values = self.layout.n_values
+        rows = as_floats(_select_channels(values, self.layout.value_names), "rows")
         joints = self.layout.skeleton and (self.layout.skeleton.n_joints, 3)
         if not rows.size:
             return np.empty((0, n_values))
@@ -191,7 +195,7 @@ class Stream:
         return np.where(np.isfinite(rows), rows, np.nan).reshape(-1, n_values)
 
     def finish(self) -> list[Event]:
-        """End the stream; return the last events, which are all final."""
+        """End the stream; return the last events. All segments are final then."""
         if self._state.is_finished:
             return []
         events = self._absorb(self._state.intake.finish())
@@ -241,9 +245,10 @@ class Stream:
 
     @property
     def segmentation(self) -> Segmentation:
-        """Return the segments that are final; the current activity ends at the last final frame.
+        """Return the segments that are final, and the current activity, with the clock of the rows.
 
-        Its repetitions are added when they are final: when it ends, or after most of `memory`.
+        The end of the current activity may still move in both directions. Its repetitions are added
+        when they are final: when it ends, or the older half of `memory` at a time.
 
         Raises ParameterError while nothing is final.
         """
@@ -251,16 +256,18 @@ class Stream:
         if not finals.frontier:
             raise ParameterError("nothing of the stream is final yet")
         preset = self._state.past.options.resolved(signals=self.layout.skeleton is None)
-        provenance = {
+        provenance: dict[str, Any] = {
             "kineme": __version__,
             "preset": preset.name,
             "method": preset.method,
             "parameters": {"unit": preset.unit, **preset.parameters()},
             "notes": [
-                f"segmented as a stream, final after {self.delay:g} s",
+                f"segmented as a stream with a delay of {self.delay:g} s",
                 *self._state.intake.said,
             ],
         }
+        if (clock := self._state.intake.make_clock()) is not None:
+            provenance["clock"] = clock.to_json()
         return Segmentation.from_columns(
             finals.columns(), n_frames=finals.frontier, fps=self.fps, provenance=provenance
         )
@@ -404,7 +411,8 @@ class Stream:
                     at_s=at_s,
                     state="provisional",
                     start_s=announced.start / self.fps,
-                    stop_s=begin_s,
+                    # An activity that this look no longer has begins after the current one.
+                    stop_s=max(announced.start / self.fps, begin_s),
                     cluster=announced.cluster,
                     repetitions=announced.n_repetitions,
                     label=finals.labels.get(announced.cluster, ""),
@@ -433,18 +441,27 @@ class Stream:
                 events.append(finals.repetition(row, number, at_s, state="provisional"))
         announced.n_repetitions = max(announced.n_repetitions, n_final + len(coming))
 
-    def _remember(self, recording: Motion | Signals, segments: Segmentation) -> None:
+    def _remember(self, known: Any) -> None:
         """Store examples and labels of the clusters of an earlier result."""
-        check_type(segments, Segmentation, "known", "kineme.segment(recording) gives one")
+        if not (isinstance(known, tuple | list) and len(known) == 2):
+            raise ParameterError(f"known must be (recording, segments), not {known!r:.60}")
+        recording, segments = known
         skeleton = self.layout.skeleton
-        values = recording.values if isinstance(recording, Signals) else recording.positions
-        own = self.layout.channels if skeleton is None else skeleton.names
-        names = recording.names if isinstance(recording, Signals) else recording.skeleton.names
-        if tuple(names) != tuple(own) or recording.fps != self.fps:
+        advice = "kineme.as_signals(data, fps=...) and kineme.read(path) give one"
+        check_type(recording, Motion if skeleton else Signals, "known", advice)
+        check_type(segments, Segmentation, "known", "kineme.segment(recording) gives one")
+        check_same_length(segments, recording.n_frames)
+        if recording.fps != self.fps:
             raise ParameterError(
-                "the recording of known has other channels, joints or frame rate than the "
-                "stream: convert it to those of the stream"
+                f"the recording of known has {recording.fps:g} frames per second, the stream "
+                f"{self.fps:g}: give kineme.resample(recording, {self.fps:g}) and its segments"
             )
+        if isinstance(recording, Signals):
+            values = recording.select(self.layout.channels).values
+        elif skeleton is not None and recording.skeleton.names == skeleton.names:
+            values = recording.positions
+        else:
+            raise ParameterError("the recording of known has other joints than the stream")
         earlier = RecentPast(self.layout, self._state.past.options)
         earlier.append(values.reshape(len(values), -1), np.zeros(len(values), np.bool_))
         for row in segments.activities:
@@ -460,6 +477,18 @@ def as_keywords(options: SegmentOptions) -> dict[str, Any]:
     """Return options as keyword arguments of `Stream`."""
     own = {name: value for name, value in vars(options).items() if name != "constants"}
     return {**own, **options.constants}
+
+
+def _select_channels(values: Any, names: Sequence[str]) -> Any:
+    """Return the values with these names from a data frame, or a row of it; others unchanged."""
+    columns = getattr(values, "column_names", getattr(values, "columns", ()))  # pyarrow, polars
+    given = values.keys() if hasattr(values, "keys") else columns
+    keys = {name_column(key): key for key in given if isinstance(key, str | tuple)}
+    if not keys or len(keys) < len(given):  # an array, or columns without names
+        return values
+    if absent := [name for name in names if name not in keys]:
+        raise ParameterError(f"rows have no {join_names(absent)}, but {join_names([*keys])}")
+    return np.moveaxis(as_floats([values[keys[name]] for name in names], "rows"), 0, -1)
 
 
 def _as_numbers(times: ArrayLike, unit: str | None) -> tuple[Floats, bool]:

@@ -77,10 +77,10 @@ def check_recording(n_frames: int, fps: float) -> None:
 
 
 def check_same_length(segments: Segmentation, n_frames: int) -> None:
-    """Raise ParameterError unless segments have as many frames as a motion."""
+    """Raise ParameterError unless segments have as many frames as a recording."""
     if segments.n_frames != n_frames:
         raise ParameterError(
-            f"the segments have {segments.n_frames} frames, but the motion has {n_frames}"
+            f"the segments have {segments.n_frames} frames, but the recording has {n_frames}"
         )
 
 
