@@ -352,6 +352,7 @@ def test_parquet(tmp_path) -> None:
     assert signals.values.tolist() == [[1, 4], [2, 5], [3, 6]]
     assert signals.fps == 2
     assert signals.provenance.notes == ("columns that are not channels: who",)
+    assert as_signals(table).values.tolist() == signals.values.tolist()
     with pytest.raises(ReadError, match="cannot be read as numbers"):
         read(tmp_path / "a.parquet", columns=["who"])
 
