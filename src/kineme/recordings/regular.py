@@ -498,11 +498,12 @@ def fill_gaps_in_channels(
     shares = resampled.missing[recorded].mean(axis=0)
     sparse = shares > _MISSING
     if sparse.any() and not sparse.all():
-        kept = np.flatnonzero(~sparse)
-        *filled, notes = fill_gaps_in_channels(timing, values[:, kept], [names[i] for i in kept])
-        left_out = join_names([names[i] for i in np.flatnonzero(sparse)], most=4)
-        remark = f"channels without values most of the time are left out: {left_out}"
-        return *filled, [Note(remark, "warning"), *notes]
+        left_out = [name for name, out in zip(names, sparse, strict=True) if out]
+        others = [name for name, out in zip(names, sparse, strict=True) if not out]
+        found, kept, gaps, notes = fill_gaps_in_channels(timing, values[:, ~sparse], others)
+        remark = "channels without values most of the time are left out: "
+        notes = [Note(remark + join_names(left_out, most=4), "warning"), *notes]
+        return found, kept, gaps, notes
     long = resampled.missing.any(axis=1)
     if (long | jumps).all():
         raise ParameterError(
