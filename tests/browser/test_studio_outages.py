@@ -43,6 +43,8 @@ def test_edits_on_their_way_when_the_server_dies_are_kept_and_sent_and_no_more_a
     page.keyboard.press("s")
     page.get_by_text("Not done:").wait_for()
     assert len(screen.state["unsent"]) == 5
+    page.keyboard.press("z")
+    page.keyboard.press("End")  # who looks elsewhere meanwhile loses nothing
     mortal.start()  # has a new token, which the tab learns from the one that is opened now
     page.get_by_text("started anew").wait_for()
     new_tab(mortal.address)

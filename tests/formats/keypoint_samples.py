@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 import kineme
-from kineme.formats.keypoints.coco import NAMES as COCO
+from kineme.formats.keypoints.detectors import NAMES as COCO
+from kineme.formats.keypoints.detectors import OPENPOSE_LAYOUTS as OPENPOSE
 from kineme.formats.keypoints.mediapipe import NAMES as MEDIAPIPE
-from kineme.formats.keypoints.openpose import NAMES as OPENPOSE
 
 _SPOTS = {
     "nose": (0, 1.6), "neck": (0, 1.45), "head": (0, 1.65), "chest": (0, 1.2),
@@ -55,23 +55,17 @@ def make_openpose(count: int = 25, frames: int = 30) -> list[dict]:
     return [make_frame(points) for points in project(make_person(OPENPOSE[count], frames))]
 
 
-def make_coco(frames: int = 30, *, results: bool = False, x: float = 500.0, **more) -> dict | list:
+def make_coco(frames: int = 30, *, x: float = 500.0, **more) -> list[dict]:
     points = project(make_person(COCO, frames), x)
-    third = 0.9 if results else 2
-    entries = [
+    return [
         {
             "image_id": i + 1,
             "category_id": 1,
-            "keypoints": np.column_stack([row, np.full(17, third)]).ravel().tolist(),
+            "keypoints": np.column_stack([row, np.full(17, 0.9)]).ravel().tolist(),
             **more,
         }
         for i, row in enumerate(points)
     ]
-    if results:
-        return entries
-    images = [{"id": i + 1, "file_name": f"frame_{i:04d}.png"} for i in range(frames)]
-    categories = [{"id": 1, "name": "person", "keypoints": list(COCO)}]
-    return {"images": images, "annotations": entries, "categories": categories}
 
 
 def make_mmpose(

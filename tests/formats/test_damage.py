@@ -94,8 +94,7 @@ SOUND = {
     "text.fbx": make_walker().text(),
     "a.glb": make_glb(),
     "openpose.json": as_json(make_openpose(18, 3)),
-    "coco.json": as_json(make_coco(3)),
-    "results.json": as_json(make_coco(3, results=True, track_id=1)),
+    "coco.json": as_json(make_coco(3, track_id=1)),
     "mmpose.json": as_json(make_mmpose()["instance_info"][:3]),
     "mediapipe.json": as_json(MEDIAPIPE),
 }

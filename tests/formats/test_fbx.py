@@ -321,7 +321,7 @@ def test_a_rate_that_is_asked_for_and_one_that_keys_tell(tmp_path: Path) -> None
     scene = Bones({}, TimeMode=0)
     motion = play(scene, tmp_path, X=Keys(times, 90 * times))
     assert (motion.fps, motion.n_frames) == (100, 101)
-    assert any("so that of its keys is used" in note for note in motion.provenance.notes)
+    assert "frame rate 100 Hz, from its keys" in motion.provenance.notes
     motion = read_scene(scene.binary(), tmp_path, fps=50)
     assert motion.n_frames == 51
     assert measure_angles(motion)[-1] == pytest.approx(90)

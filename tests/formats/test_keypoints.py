@@ -31,8 +31,9 @@ from growth import measure_peak
 from kineme.cli.app import app
 from kineme.errors import KinemeWarning, ReadError
 from kineme.formats import ReadOptions, list_people
-from kineme.formats.keypoints.coco import LAYOUTS as MMPOSE
+from kineme.formats.keypoints.detectors import LAYOUTS as MMPOSE
 from kineme.formats.keypoints.people import track_people
+from kineme.formats.listing import holds_recording
 from reading import read
 
 
@@ -187,18 +188,16 @@ def test_keypoints_that_are_not_sure_are_gaps(tmp_path: Path) -> None:
         read(tmp_path, "a.json", frames, fps=25, confidence=0.95)
 
 
-@pytest.mark.parametrize("results", [False, True])
-def test_coco(tmp_path: Path, results: bool) -> None:
-    motion = read(tmp_path, "a.json", make_coco(results=results), fps=30)
-    check_sample(motion, "COCO")
-    if not results:
-        data = make_coco()
-        data["annotations"] = data["annotations"][4:]
-        assert read(tmp_path, "a.json", data, fps=30).n_frames == 30  # the first four: filled
+def test_coco(tmp_path: Path) -> None:
+    check_sample(read(tmp_path, "a.json", make_coco(), fps=30), "COCO")
+    photos = {"images": [{"id": i + 1} for i in range(30)], "annotations": make_coco()}
+    with pytest.raises(ReadError, match="no keypoints found in it: .* COCO .a list with"):
+        read(tmp_path, "a.json", photos, fps=30)
+    assert not holds_recording(tmp_path / "a.json")
 
 
 def test_coco_with_people_and_names_of_images(tmp_path: Path) -> None:
-    both = make_coco(results=True, idx=1) + make_coco(results=True, idx=4, x=1300)
+    both = make_coco(idx=1) + make_coco(idx=4, x=1300)
     for entry in both:
         entry["image_id"] = f"{entry['image_id']}.jpg"
     with pytest.raises(ReadError, match=r"2 people are in it: .* 1 \(30 frames .*, 4 \(30 frames"):
@@ -210,7 +209,7 @@ def test_coco_with_people_and_names_of_images(tmp_path: Path) -> None:
 
 
 def test_a_number_that_two_people_share_is_ignored(tmp_path: Path) -> None:
-    left, right = (make_coco(results=True, idx=[0.0], x=x) for x in (400, 1300))
+    left, right = (make_coco(idx=[0.0], x=x) for x in (400, 1300))
     # Untracked AlphaPose: the order within a frame may change.
     pairs = [pair[:: 1 - 2 * (i % 2)] for i, pair in enumerate(zip(left, right, strict=True))]
     motion = read(tmp_path, "a.json", [entry for pair in pairs for entry in pair], fps=30, person=0)
@@ -328,7 +327,7 @@ def test_deeplabcut_with_several_individuals(tmp_path: Path) -> None:
         ("[" * 100_000, "is not a complete JSON file"),
         ("{}", "no keypoints found in it"),
         ('[{"people": 3}]', "frame 0 has no list of 'people'"),
-        ('[{"people": [3]}]', "a person without keypoints"),
+        ('[{"people": [3]}]', "a person without pose_keypoints_3d"),
         ('[{"people": [{}]}]', "a person without pose_keypoints_3d, pose_keypoints_2d"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, "a"]}]}]', "not a list of numbers"),
         ('[{"people": [{"pose_keypoints_2d": [1, 2, 3]}]}]', "keypoints: 15, 17, 18"),

@@ -30,10 +30,6 @@ LAYOUTS = {
         "frames": [{"poseWorldLandmarks": to_marks(p)} for p in poses],
     },
     "solutions": lambda poses: [{"pose_landmarks": {"landmark": to_marks(p)}} for p in poses],
-    "numbered": lambda poses: {str(i): to_marks(p) for i, p in enumerate(poses)},
-    "named": lambda poses: [
-        {"pose": dict(zip(map(str.upper, MEDIAPIPE), to_marks(p)))} for p in poses
-    ],
 }
 
 
@@ -43,6 +39,12 @@ def test_mediapipe_json(tmp_path: Path, layout: str) -> None:
     check_sample(motion, "MediaPipe")
     assert any("world landmarks" in note for note in motion.provenance.notes)
     assert measure_wave(motion) == pytest.approx(0.8, abs=0.05)
+
+
+def test_other_json_of_landmarks_is_refused(tmp_path: Path) -> None:
+    named = [dict(zip(MEDIAPIPE, to_marks(pose), strict=True)) for pose in make_world_landmarks(2)]
+    with pytest.raises(ReadError, match="MediaPipe .a list of frames with 33 landmarks"):
+        read(tmp_path, "a.json", named, fps=25)
 
 
 def test_mediapipe_takes_world_landmarks_where_there_are_both(tmp_path: Path) -> None:
@@ -77,9 +79,9 @@ def to_csv(pattern: str, first: int = 0, **more: list) -> str:
 
 def test_mediapipe_frames_without_anybody_keep_their_time(tmp_path: Path) -> None:
     poses = make_world_landmarks(40)
-    there = {str(i): to_marks(pose) for i, pose in enumerate(poses) if not 10 <= i < 20}
+    frames = [to_marks(pose) if not 10 <= i < 20 else [] for i, pose in enumerate(poses)]
     with pytest.warns(KinemeWarning, match="frames 10 to 19"):
-        numbered = read(tmp_path, "a.json", there, fps=25)
+        numbered = read(tmp_path, "a.json", frames, fps=25)
     assert (numbered.n_frames, numbered.gaps) == (40, ((10, 20),))
     lines = to_csv("{f}{i}").splitlines()
     nobody = [lines[0], *["," * 131] * 10, *lines[1:]]
@@ -119,20 +121,14 @@ def test_mediapipe_csv(tmp_path: Path, pattern: str, first: int) -> None:
     assert read(tmp_path, "a.csv", text, fps=25).n_frames == 32
 
 
-@pytest.mark.parametrize("names", ["number", "float", "name"])
-def test_mediapipe_csv_with_a_row_for_each_landmark(tmp_path: Path, names: str) -> None:
-    lines = ["frame,timestamp,landmark,x,y,z,visibility"]
-    for i, pose in enumerate(make_world_landmarks()):
-        for k, (x, y, z) in enumerate(pose.tolist()):
-            label = f"PoseLandmark.{MEDIAPIPE[k].upper()}"
-            name = {"number": k, "float": float(k)}.get(names, label)
-            lines.append(f"{i},{i / 25},{name},{x},{y},{z},0.9")
-    motion = read(tmp_path, "a.csv", "\n".join(lines))
-    check_sample(motion, "MediaPipe")
-    assert motion.fps == 25
-    assert measure_wave(motion) == pytest.approx(0.8, abs=0.05)
-    with pytest.raises(ReadError, match="'99' is none of MediaPipe's 33 landmarks"):
-        read(tmp_path, "a.csv", "\n".join([*lines, "30,1.2,99,0,0,0,1"]))
+@pytest.mark.parametrize("named", [True, False])
+def test_a_row_for_each_landmark_is_refused(tmp_path: Path, named: bool) -> None:
+    lines = ["frame,timestamp,landmark,x,y,z"]
+    for i, pose in enumerate(make_world_landmarks(4)):
+        rows = zip(MEDIAPIPE if named else range(33), pose.tolist(), strict=True)
+        lines += [",".join(map(str, [i, i / 25, landmark, *point])) for landmark, point in rows]
+    with pytest.raises(ReadError, match=r"alternate \(column 'landmark': (nose|0), "):
+        read(tmp_path, "a.csv", "\n".join(lines))
 
 
 @pytest.mark.parametrize("world", [True, False])

@@ -72,12 +72,6 @@ def link_to_itself(path: Path) -> None:
             inner[name] = file["outer"]
 
 
-def write_landmarks(path: Path) -> None:
-    with path.open("w") as file:
-        file.write("frame,landmark,x,y\n")
-        file.writelines(f"{i},0,1,1\n" for i in range(400_000))
-
-
 def write_long_bvh(folder: Path) -> Path:
     channels = "CHANNELS 3 Zrotation Yrotation Xrotation"
     path = folder / "long.bvh"
@@ -106,7 +100,6 @@ FILES: list[tuple[Callable[[Path], None], str, str]] = [
     (write_zeros, "base.npz", "claims to unpack to 900 MB"),
     (nest_groups, "a.h5", "claims to unpack far more than it contains"),
     (link_to_itself, "a.h5", "contains a link to itself"),
-    (write_landmarks, "a.csv", "claims 33 landmarks in 400000 frames"),
 ]
 
 

@@ -134,7 +134,10 @@ def test_one_of_several_subjects(tmp_path: Path) -> None:
         (lambda text: text.replace("subject", "actor"), "it has no subject"),
         (lambda text: text.replace('"normal"', '"npose"'), "no frame has a position"),
         (lambda text: text.replace("</position>", " 1</position>", 2), r"does not have \d+ values"),
-        (lambda text: text.replace("<position>", "<position>x ", 2), "that is not a number"),
+        (
+            lambda text: text.replace("<position>", "<position>x ", 2),
+            "position of a frame is not a number",
+        ),
         (lambda text: text.replace("<position>", "<position>nan ", 2), r"does not have \d+ values"),
         (lambda _: to_mvnx(make_suit(), positions=False), "no frame has a position"),
     ],

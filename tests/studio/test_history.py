@@ -15,6 +15,7 @@ import pytest
 from studio_clients import Studio
 
 import kineme
+from kineme.segments import editing
 from kineme.studio.storage import tables
 
 
@@ -27,6 +28,10 @@ def named(studio: Studio, label: str = "hop") -> dict[str, Any]:
 def versions(studio: Studio) -> list[dict[str, Any]]:
     """Return the tables that were replaced, the latest first."""
     return studio.get(f"{studio.one}/versions").json()["versions"]
+
+
+def fail(*_: Any) -> None:
+    raise RuntimeError("the end")
 
 
 def labels(message: dict[str, Any]) -> set[str]:
@@ -115,9 +120,6 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
     before = named(studio)
     places = {"table": "tables.TableFile.write", "history": "tables.write_record"}
 
-    def fail(*_: Any) -> None:
-        raise RuntimeError("the end")
-
     with monkeypatch.context() as patch:
         patch.setattr(f"kineme.studio.storage.{places[cut]}", fail)
         sent = {
@@ -137,6 +139,43 @@ def test_a_server_that_ended_between_two_files_goes_on_from_the_last_that_was_wh
     assert state["segmentation"] == before["segmentation"]
     state = again.apply("undo")
     assert labels(state) == set()
+
+
+def test_an_undo_that_was_interrupted_goes_back_one_step_when_it_is_sent_again(
+    make_studio: Callable[..., Studio], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    studio = make_studio()
+    named(studio)
+    checked = studio.apply("check", level="activity", frames=[50], checked=True)
+    state = studio.apply("check", level="activity", frames=[50], checked=False)  # as two edits ago
+    sent = {"revision": state["revision"], "edit": {"kind": "undo"}, "name": "has no answer"}
+    with monkeypatch.context() as patch:
+        patch.setattr(tables.TableFile, "write", fail)
+        assert studio.post(f"{studio.one}/edits", sent).status_code == 500
+    again = make_studio()
+    again.post(f"{again.one}/edits", sent)
+    assert again.recording()["segmentation"] == checked["segmentation"]
+
+
+def test_an_edit_is_kept_for_another_try_if_another_program_writes_at_the_same_time(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = named(studio)
+    write = tables.TableFile.write
+    theirs = editing.split(kineme.read_segments(studio.table), "activity", 120)
+
+    def write_late(file: tables.TableFile, content: bytes) -> None:
+        kineme.write_segments(theirs, studio.table)
+        write(file, content)
+
+    edit = {"kind": "split", "level": "activity", "frame": 90}
+    sent = {"revision": before["revision"], "edit": edit, "name": "sent twice"}
+    with monkeypatch.context() as patch:
+        patch.setattr(tables.TableFile, "write", write_late)
+        assert studio.post(f"{studio.one}/edits", sent).status_code == 409
+    sent["revision"] = studio.recording()["revision"]
+    assert studio.post(f"{studio.one}/edits", sent).status_code == 200
+    assert {90, 120} <= set(studio.starts())
 
 
 def test_a_history_that_cannot_be_read_is_no_obstacle_and_its_tables_stay(

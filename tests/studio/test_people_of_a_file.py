@@ -137,7 +137,7 @@ def test_commands_take_all_people(duet: Studio, monkeypatch: pytest.MonkeyPatch)
     run("report", "--segments", ".", "-o", "page.html")
     assert "by Anna" in Path("page_Anna.html").read_text()
     assert "by Anna" not in Path("page_Bob.html").read_text()
-    with pytest.warns(KinemeWarning, match="no heel was found"):
+    with pytest.warns(KinemeWarning, match="left heel, right heel not found"):
         run("events", "-o", "feet.csv")
     assert {path.name for path in Path().glob("feet*.csv")} == {"feet_Anna.csv", "feet_Bob.csv"}
 

@@ -180,7 +180,7 @@ class DelimitedText:
         return np.array(values).reshape(-1, len(chosen))
 
     def refuse_interleaved(self, requested: Collection[str] = ()) -> None:
-        """Raise ReadError if rows of several people or devices alternate."""
+        """Raise ReadError if rows of several points, people or devices alternate."""
         texts = {name: self.texts(i) for i, name in enumerate(self.names) if is_owner(name)}
         if error := describe_alternation(texts, requested):
             raise self.content.error(error)

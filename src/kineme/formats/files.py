@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import file_digest, sha256
-from math import isfinite
+from math import inf, isfinite
 from os import PathLike
 from os.path import realpath
 from pathlib import Path
@@ -76,11 +76,19 @@ class FileContent:
         where = "" if line is None else f"line {line}: "
         self.remarks.append(Note(f"{where}{reason}", "warning"))
 
-    def choose_rate(self, requested: float | None, stated: float | None) -> float:
-        """Return the requested frame rate, else the stated one, else 0; warn if they differ."""
+    def choose_rate(
+        self, requested: float | None, stated: float | None, missing: str = ""
+    ) -> float:
+        """Return the requested frame rate, else a valid stated one, else 0; warn if they differ.
+
+        Instead of returning 0, raise ReadError if ``missing`` says what the file lacks.
+        """
+        stated = stated if stated and 0 < stated < inf else 0.0
         if requested and stated and abs(requested - stated) > RATE_ROUNDING * stated:
             self.warn(f"the file states {stated:g} Hz; {requested:g} is used")
-        return requested or stated or 0.0
+        if missing and not (requested or stated):
+            raise self.error(f"{missing}: give fps= (--fps)")
+        return requested or stated
 
     def provenance(self, name: str, notes: Iterable[str]) -> Provenance:
         """Return the provenance of a recording in this file, with all remarks and these notes."""

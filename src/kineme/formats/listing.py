@@ -5,8 +5,7 @@ immediately. Files that are opened:
 
 - tables, whose rows are frames unless their columns are spans or events (``start_s``, ``onset``);
 - npz archives, whose directory lists ``poses``, ``positions``, a time, a rate or joint coordinates;
-- JSON and text, which are recordings only if a format recognises their first bytes. For JSON the
-  last bytes count as well: data sets of COCO often begin with their images.
+- JSON and text, which are recordings only if a format recognises their first bytes.
 
 A video next to a recording of the same name shows that recording and is not listed itself. Poses
 that were estimated from a video are read with the video.
@@ -158,9 +157,8 @@ def _is_recording(path: Path) -> bool:
     if not formats or suffix in _SKELETONS:
         return False
     if suffix in _AMBIGUOUS:
-        # Long lists of images may precede what makes a JSON file a recording.
-        sample = read_head(path) + (read_tail(path) if suffix == ".json" else b"")
-        is_known = any(recognises_safely(each.name, each.recognises, sample) for each in formats)
+        head = read_head(path)
+        is_known = any(recognises_safely(each.name, each.recognises, head) for each in formats)
         return is_known or (suffix != ".json" and _is_text_table(path))
     # Tables and archives also hold labels and other arrays.
     if suffix in (".csv", ".tsv"):

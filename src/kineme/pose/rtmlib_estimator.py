@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kineme.formats.keypoints.coco import LAYOUTS, LIMIT
+from kineme.formats.keypoints.detectors import LAYOUTS, LIMIT
 from kineme.pose.estimators import Estimate, Picture, Pose, PoseEstimator
 
 

@@ -36,7 +36,8 @@ _PLACE = re.compile(r"\b(?:lat|lon|lng|latitude|longitude|gps)\b")
 # Insoles have pressures, and machines speeds, too: these are left out only beside a place.
 _COURSE = re.compile(r"(?:pressure|speed|bearing|course)(?: (?:h?pa|m s|km h|deg|degrees))?")
 _OWNER = re.compile(
-    r"(?:person|subject|participant|individual|user|(?P<part>track|device|sensor|joint|body ?part))"
+    r"(?:person|subject|participant|individual|user|landmark|key ?point"
+    r"|(?P<part>track|device|sensor|joint|body ?part))"
     r"(?P<suffix> ?(?:id|name|type|kind|no|number|label))?"
 )
 _NUMBER = re.compile(r"[-+]?[\d.,]+(?:e[-+]?\d+)?", re.IGNORECASE)
@@ -132,7 +133,7 @@ def name_column(label: object) -> str:
 
 
 def is_owner(name: str) -> bool:
-    """Return whether a column of this name may tell the person or device of each row.
+    """Return whether a column of this name may tell the person, device or point of each row.
 
     Examples
     --------
@@ -145,7 +146,7 @@ def is_owner(name: str) -> bool:
 def describe_alternation(
     columns: Mapping[str, ArrayLike], requested: Collection[str] = ()
 ) -> str | None:
-    """Return an error if rows of several people or devices alternate in a column of owners.
+    """Return an error if rows of several points, people or devices alternate.
 
     A device exchanged once does not count as alternation. A requested channel is no owner. Numbers
     are owners only if the name of their column says so, and no channels are requested.
@@ -153,7 +154,7 @@ def describe_alternation(
     Examples
     --------
     >>> print(describe_alternation({"device": ["left", "right"] * 3}))
-    rows of several people or devices alternate (column 'device': left, right): separate them, ...
+    rows of several points, people or devices alternate (column 'device': left, right): ...
     >>> describe_alternation({"device": ["left"] * 3 + ["right"] * 3})
     """
     for name, column in columns.items():
@@ -173,8 +174,8 @@ def describe_alternation(
         # The slowest of several sensors has about one row at a time.
         if any(rows[owner] <= _ROWS_IN_TURN * turns[owner] for owner in owners):
             return (
-                f"rows of several people or devices alternate (column {name!r}: {owners[0]:.20}, "
-                f"{owners[1]:.20}): separate them, one table for each"
+                f"rows of several points, people or devices alternate (column {name!r}: "
+                f"{owners[0]:.20}, {owners[1]:.20}): give each a table or columns of its own"
             )
     return None
 

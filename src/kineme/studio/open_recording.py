@@ -170,7 +170,8 @@ class OpenRecording:
         revision or another program changed the file; KinemeError if the edit cannot be applied or
         saved.
         """
-        if self.finding and revision == self.revision:
+        # `find` raises the revision after it clears `finding`, so compare the revision first.
+        if revision == self.revision and self.finding:
             raise ParameterError(STILL_FINDING)
         self.find()  # an edit resent after a restart waits for the table
         with self._lock:

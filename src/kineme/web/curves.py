@@ -9,20 +9,16 @@ pairs of little-endian 32-bit floats; missing values are nan. Angles and speeds 
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Callable
+from dataclasses import replace
 from math import ceil
 from threading import Lock
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kineme._util.arrays import Floats
-from kineme.cycles.channels import ANGLE, channels_of
-from kineme.cycles.joints import bend
-from kineme.features.effectors import measure_speed
+from kineme.cycles.channels import ANGLE, Channel, channels_of, make_motion_channels
 from kineme.recordings import Motion, Signals
 from kineme.web.messages import Curve, CurveList
 
@@ -45,29 +41,22 @@ class Curves:
     """
 
     def __init__(self, recording: Motion | Signals, analog: Signals | None = None):
-        self.n_frames = recording.n_frames
-        if isinstance(recording, Motion):
-            self._drawn = list_motion_curves(recording)
-        else:
-            self._drawn = [
-                CurveSource(name, "channels", "", partial(_get_channel, number=i))
-                for i, name in enumerate(recording.names)
-            ]
-        self._first_analog = len(self._drawn)
+        self.n_frames, self.fps = recording.n_frames, recording.fps
+        # Only heads are kept: channels would keep the recording in memory.
+        self._heads = [
+            Curve(name=each.name, group=each.group, unit=each.unit)
+            for each in list_curves(recording)
+        ]
+        self._first_analog = len(self._heads)
         if analog is not None:
-            compute = partial(_find_frame_extremes, n_frames=recording.n_frames, fps=recording.fps)
-            self._drawn += [
-                CurveSource(name, "analog", "", partial(compute, number=i), of_frames=False)
-                for i, name in enumerate(analog.names)
-            ]
+            self._heads += [Curve(name=name, group="analog", unit="") for name in analog.names]
         self._recent: OrderedDict[int, list[Pairs]] = OrderedDict()
         self._lock = Lock()
 
     def head(self) -> CurveList:
         """Return the list of curves and the layout of their tiles."""
-        curves = [Curve(name=each.name, group=each.group, unit=each.unit) for each in self._drawn]
         n_levels = len(compute_level_sizes(self.n_frames))
-        return CurveList(curves=curves, factor=FACTOR, tile=TILE, levels=n_levels)
+        return CurveList(curves=self._heads, factor=FACTOR, tile=TILE, levels=n_levels)
 
     def tile(
         self, read: Callable[[bool], Motion | Signals], curve: int, level: int, number: int
@@ -77,13 +66,12 @@ class Curves:
         ``read(is_analog)`` returns the recording, or its analog channels. It is called only if the
         curve is not cached.
         """
-        if not 0 <= curve < len(self._drawn):
+        if not 0 <= curve < len(self._heads):
             return None
         with self._lock:
             levels = self._recent.get(curve)
             if levels is None:
-                source = read(curve >= self._first_analog)
-                levels = self._recent[curve] = build_levels(self._drawn[curve].compute(source))
+                levels = self._recent[curve] = build_levels(self._compute(read, curve))
             self._recent.move_to_end(curve)
             while len(self._recent) > MAX_CURVES:
                 # Drop the least recently used curve.
@@ -91,6 +79,12 @@ class Curves:
         if not 0 <= level < len(levels) or not 0 <= number * TILE < len(levels[level]):
             return None
         return levels[level][number * TILE : (number + 1) * TILE].tobytes()
+
+    def _compute(self, read: Callable[[bool], Motion | Signals], curve: int) -> Floats:
+        if curve < self._first_analog:
+            return list_curves(read(False))[curve].values()
+        channel = list_curves(read(True))[curve - self._first_analog]
+        return _find_frame_extremes(channel, self.n_frames, self.fps)
 
 
 def make_report_curves(
@@ -154,88 +148,31 @@ def compute_level_sizes(n_frames: int) -> list[int]:
     return sizes
 
 
-@dataclass(frozen=True)
-class CurveSource:
-    """A curve and the function that computes it from a recording, a motion or signals."""
-
-    name: str
-    group: str
-    unit: str
-    values: Callable[[Any], Floats]
-    of_frames: bool = True
-
-    def compute(self, recording: Motion | Signals) -> Floats:
-        """Return the values, with nan in gaps."""
-        values = np.array(self.values(recording), np.float64)
-        for start, stop in recording.gaps if self.of_frames else ():
-            values[start:stop] = np.nan
-        return values
+def list_curves(recording: Motion | Signals) -> list[Channel]:
+    """Return the channels of signals; or a body's angles, and height, speed, x and z of joints."""
+    if isinstance(recording, Signals):
+        return [replace(channel, group="channels") for channel in channels_of(recording)]
+    channels = make_motion_channels(recording)
+    curves = [channel for channel in channels if channel.group == ANGLE]
+    for ending, group in (("y", "height"), ("speed", "speed"), ("x", "x"), ("z", "z")):
+        curves += [
+            replace(channel, name=channel.source, group=group)  # the page shows joints by group
+            for channel in channels
+            if channel.group in ("position", "speed")
+            and channel.name == f"{channel.source}.{ending}"
+        ]
+    return curves
 
 
-def list_motion_curves(motion: Motion) -> list[CurveSource]:
-    """Return the body's angles, then height, speed, bend and floor position of each joint."""
-    names, parents = motion.skeleton.names, motion.skeleton.parents
-    lengths = np.linalg.norm(motion.skeleton.offsets, axis=1)
-    curves = [
-        CurveSource(channel.name, ANGLE, channel.unit, partial(_measure_angle, name=channel.name))
-        for channel in channels_of(motion)
-        if channel.group == ANGLE
-    ]
-    curves += _list_coordinates(names, 1, "height")
-    curves += [
-        CurveSource(name, "speed", "m/s", partial(_measure_speed, joint=i))
-        for i, name in enumerate(names)
-    ]
-    for joint, name in enumerate(names):
-        # Child bones with a length; a bend is only defined with exactly one.
-        ends = [i for i, parent in enumerate(parents) if parent == joint and lengths[i] > 0]
-        if parents[joint] >= 0 and lengths[joint] > 0 and len(ends) == 1:
-            joints = parents[joint], joint, ends[0]
-            bend_of = partial(_measure_bend, joints=joints)
-            curves.append(CurveSource(name, "flexion angle", "°", bend_of))
-    return [*curves, *_list_coordinates(names, 0, "x"), *_list_coordinates(names, 2, "z")]
-
-
-def _find_frame_extremes(signals: Signals, number: int, *, n_frames: int, fps: float) -> Floats:
+def _find_frame_extremes(channel: Channel, n_frames: int, fps: float) -> Floats:
     """Return minimum and maximum of an analog channel in each frame of the motion."""
-    # Copy, since gaps are set to nan.
-    channel = np.array(signals.values[:, number])
-    for start, stop in signals.gaps:
-        channel[start:stop] = np.nan
+    values = channel.values()
     # First sample of each frame; the small number compensates rounding errors.
-    starts = np.floor(np.arange(n_frames) * (signals.fps / fps) + 1e-9).astype(np.intp)
+    starts = np.floor(np.arange(n_frames) * (channel.fps / fps) + 1e-9).astype(np.intp)
     # The channel may end before the motion.
-    starts = starts[starts < len(channel)]
+    starts = starts[starts < len(values)]
     extremes = np.full((n_frames, 2), np.nan)
     if len(starts):
-        extremes[: len(starts), 0] = np.fmin.reduceat(channel, starts)
-        extremes[: len(starts), 1] = np.fmax.reduceat(channel, starts)
+        extremes[: len(starts), 0] = np.fmin.reduceat(values, starts)
+        extremes[: len(starts), 1] = np.fmax.reduceat(values, starts)
     return extremes
-
-
-def _list_coordinates(names: Sequence[str], axis: int, group: str) -> list[CurveSource]:
-    return [
-        CurveSource(name, group, "m", partial(_get_coordinate, joint=i, axis=axis))
-        for i, name in enumerate(names)
-    ]
-
-
-def _get_channel(signals: Signals, number: int) -> Floats:
-    return signals.values[:, number]
-
-
-def _get_coordinate(motion: Motion, joint: int, axis: int) -> Floats:
-    return motion.positions[:, joint, axis]
-
-
-def _measure_speed(motion: Motion, joint: int) -> Floats:
-    return measure_speed(motion.positions[:, joint], motion.fps)
-
-
-def _measure_bend(motion: Motion, joints: tuple[int, int, int]) -> Floats:
-    """Return the angle between two bones in degrees; 0 if straight."""
-    return bend(*(motion.positions[:, joint] for joint in joints))
-
-
-def _measure_angle(motion: Motion, name: str) -> Floats:
-    return channels_of(motion, [name])[0].values()

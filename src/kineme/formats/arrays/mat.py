@@ -207,10 +207,8 @@ def _read_qtm(
     if len(names) != data.shape[0] or data.shape[1] < 3 or 0 in data.shape:
         raise content.error(f"{len(names)} Labels for Data of shape {data.shape}")
     rate = head.get("FrameRate")
-    fps = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
-    fps = content.choose_rate(options.fps, fps if np.isfinite(fps) and fps > 0 else None)
-    if not fps:
-        raise content.error("it has no FrameRate: give fps= (--fps)")
+    stated = float(rate.ravel()[0]) if isinstance(rate, np.ndarray) and rate.size == 1 else 0.0
+    fps = content.choose_rate(options.fps, stated, "it has no FrameRate")
     # Markers, axes, frames become frames, markers, axes; the fourth number is a residual.
     positions = np.asarray(data[:, :3], np.float64).transpose(2, 0, 1)
     points = Points(

@@ -311,14 +311,10 @@ def find_rate(
     content: FileContent, arrays: Arrays, names: Sequence[str], requested: float | None
 ) -> float:
     """Return the requested frame rate, else that under the first of the names that holds one."""
-    for name in names:
-        if name in arrays and arrays[name].size == 1 and arrays[name].dtype.kind in "iuf":
-            rate = float(arrays[name].item())
-            if np.isfinite(rate) and rate > 0:
-                return content.choose_rate(requested, rate)
-    if requested:
-        return requested
-    raise content.error(f"no {names[0]!r} in it: give fps= (--fps)")
+    found = (arrays[name] for name in names if name in arrays)
+    rates = (float(each.item()) for each in found if each.size == 1 and each.dtype.kind in "iuf")
+    stated = next((rate for rate in rates if np.isfinite(rate) and rate > 0), None)
+    return content.choose_rate(requested, stated, f"no {names[0]!r} in it")
 
 
 FORMATS = (

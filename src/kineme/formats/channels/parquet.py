@@ -113,7 +113,7 @@ def find_parquet_times(file: Any) -> dict[str, str]:
 
 
 def refuse_interleaved(content: FileContent, file: Any, requested: Collection[str] = ()) -> None:
-    """Raise ReadError if rows of several people or devices alternate."""
+    """Raise ReadError if rows of several points, people or devices alternate."""
     owners = [name for name in file.schema_arrow.names if is_owner(name)]
     table = read_parquet_columns(content, file, owners)
     cells = zip(owners, (column.to_pylist() for column in table.columns), strict=True)

@@ -2,12 +2,12 @@
 
 MediaPipe has no file format of its own. These forms are read:
 
-- JSON: a list of frames, at top level, under ``frames`` or keyed by number. A frame is a list of
-  landmarks, or has it under ``pose_world_landmarks``, ``pose_landmarks``, ``world_landmarks``,
-  ``landmarks`` or the same in camel case: one list of 33, a list of these for each person, or
-  landmarks by name. A landmark has ``x``, ``y``, ``z`` and ``visibility``, by name or in order.
-- CSV: columns ``x0 y0 z0 v0`` to 32 (or 1 to 33), ``nose_x`` and so on by name or number; or a row
-  for each landmark, with columns for frame, landmark, x, y and z. Rows may have times or a rate.
+- JSON: a list of frames, at top level or under ``frames``. A frame is a list of landmarks, or has
+  it under ``pose_world_landmarks``, ``pose_landmarks``, ``world_landmarks``, ``landmarks`` or the
+  same in camel case: one list of 33, or a list of these for each person. A landmark has ``x``,
+  ``y``, ``z`` and ``visibility``, by name or in order.
+- CSV: a row for each frame with columns ``x0 y0 z0 v0`` to 32 (or 1 to 33), ``nose_x`` and so on by
+  name or number. Rows may have times or a rate.
 
 World landmarks are metres from the middle of the hips, with y down. They are used if present, or if
 the middle of the hips stays at 0; the position in the room is then unknown. Image landmarks are
@@ -29,9 +29,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kineme._util.arrays import Floats, Ints
 from kineme._util.checks import is_number
 from kineme.formats.delimited import DelimitedText
 from kineme.formats.dialects import Dialect
@@ -39,7 +37,6 @@ from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
     Person,
     is_relative,
-    order_by_number,
     to_frame_numbers,
     video_to_motion,
 )
@@ -62,40 +59,34 @@ NAMES = (
 )  # fmt: skip
 
 _WORLD = ("poseworldlandmarks", "worldlandmarks")
-_IMAGE = ("poselandmarks", "landmarks", "keypoints", "pose", "landmark")
-_FRAMES = ("frames", "data", "results", "poses", "landmarks")
+_IMAGE = ("poselandmarks", "landmarks")
 _NUMBER = ("frame", "frameid", "frameidx", "frameindex", "framenumber", "framenum", "index")
 _HIPS = [NAMES.index("left_hip"), NAMES.index("right_hip")]
 _PLAIN = re.compile(r"[\s_-]")
-_BYTES_PER_POSE = 8 * 3 * 4 * len(NAMES)  # three copies of four numbers
 
-_FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3, "presence": 3, "score": 3}
+_FIELDS = {"x": 0, "y": 1, "z": 2, "v": 3, "vis": 3, "visibility": 3}
 _WORD = r"(?:pose|landmarks?|lm|kp|keypoint|point)?[\s_.-]*"
 _FIELD = r"(x|y|z|v|vis|visibility)"
 _FIELD_FIRST = re.compile(rf"{_WORD}{_FIELD}[\s_.-]*(\d{{1,2}})", re.IGNORECASE)
 _FIELD_LAST = re.compile(rf"{_WORD}(\d{{1,2}}|[a-z_ ]+?)[\s_.-]+{_FIELD}", re.IGNORECASE)
 _FRAME = re.compile(r"(frame|image)[\s_]*(id|idx|index|no|num|number)?", re.IGNORECASE)
-_LANDMARK = re.compile(
-    r"(landmark|keypoint|joint|point)([\s_]*(id|idx|index|name|no|num|number))?|name|id",
-    re.IGNORECASE,
-)
 
 
 def is_mediapipe(data: Any) -> bool:
     """Return whether JSON data has frames of 33 landmarks."""
     return any(
         _find_poses(frame, world=False) or _find_poses(frame, world=True)
-        for _, frame in _list_frames(data)
+        for frame in _list_frames(data)
     )
 
 
 def read_mediapipe(content: FileContent, data: Any, options: ReadOptions) -> Motion:
     """Return the motion of one person's landmarks."""
     frames = _list_frames(data)
-    world = any(_find_poses(frame, world=True) for _, frame in frames)
+    world = any(_find_poses(frame, world=True) for frame in frames)
     people: list[Person] = []
     numbers: list[int] = []
-    for i, frame in frames:
+    for i, frame in enumerate(frames):
         number = _find_value(frame, _NUMBER) if isinstance(frame, Mapping) else None
         numbers.append(number if isinstance(number, int) else i)
         poses = _find_poses(frame, world=world)
@@ -179,32 +170,19 @@ def _are_in_space(people: Sequence[Person]) -> bool:
     return bool(along[2] > 0.7)
 
 
-def _list_frames(data: Any) -> list[tuple[int, Any]]:
-    """Return the number and the data of each frame."""
-    if isinstance(data, list):
-        return [(0, data)] if _is_pose(data) else list(enumerate(data))
-    if not isinstance(data, Mapping):
-        return []
-    if numbered := order_by_number(data):
-        return numbered
-    for key, value in data.items():
-        several = isinstance(value, list) and not _is_pose(value)
-        if normalize_name(str(key)) in _FRAMES and (several or isinstance(value, Mapping)):
-            return _list_frames(value) or [(0, data)]
-    return [(0, data)]
+def _list_frames(data: Any) -> Sequence[Any]:
+    frames = data.get("frames") if isinstance(data, Mapping) else data
+    return frames if isinstance(frames, list) else []
 
 
 def _find_poses(frame: Any, *, world: bool) -> list[Any]:
     """Return the poses in a frame: lists of 33 landmarks."""
-    landmarks = frame
-    if isinstance(frame, Mapping) and not _order_landmarks(frame):
+    if isinstance(frame, Mapping):
         landmarks = _find_value(frame, _WORLD if world else _IMAGE)
-    elif world:
-        return []
-    if isinstance(landmarks, Mapping) and "landmark" in landmarks:
-        landmarks = landmarks["landmark"]
-    if isinstance(landmarks, Mapping):
-        landmarks = _order_landmarks(landmarks)
+    else:
+        landmarks = None if world else frame
+    if isinstance(landmarks, Mapping):  # a protocol buffer as JSON
+        landmarks = landmarks.get("landmark")
     if not isinstance(landmarks, list):
         return []
     if _is_pose(landmarks):
@@ -222,13 +200,6 @@ def _is_landmark(value: Any) -> bool:
     return isinstance(value, list) and 2 <= len(value) <= 5 and not isinstance(value[0], list)
 
 
-def _order_landmarks(frame: Mapping[str, Any]) -> list[Any]:
-    """Return the landmarks of a mapping by name in order; empty if names are missing."""
-    by_name = {normalize_name(str(key)): landmark for key, landmark in frame.items()}
-    names = [normalize_name(name) for name in NAMES]
-    return [by_name[name] for name in names] if all(name in by_name for name in names) else []
-
-
 def _parse_landmarks(
     content: FileContent, frame: int, pose: list[Any]
 ) -> tuple[list[list[float]], list[float]]:
@@ -237,8 +208,7 @@ def _parse_landmarks(
     for landmark in pose:
         if isinstance(landmark, Mapping):
             x, y, z = landmark["x"], landmark["y"], landmark.get("z", 0.0)
-            fields = ("visibility", "score", "presence")
-            visibility = next((landmark[key] for key in fields if key in landmark), 1.0)
+            visibility = landmark.get("visibility", 1.0)
         else:
             # Fill in a missing z with 0 and visibility with 1.
             x, y, z, visibility = [*landmark, *(0.0, 1.0)[len(landmark) - 2 :]][:4]
@@ -269,80 +239,36 @@ def normalize_name(name: str) -> str:
 _PLACES = {normalize_name(name): i for i, name in enumerate(NAMES)}
 
 
-def is_long(names: Sequence[str], _: Sequence[str]) -> bool:
-    """Return whether these are the columns of a table with a row for each landmark."""
-    columns = (_find_column(names, _FRAME), _find_column(names, _LANDMARK))
-    return {"x", "y"} <= {name.lower() for name in names} and None not in columns
-
-
 def read_landmarks(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks from a table with a row for each frame."""
+    """Return the motion of MediaPipe's landmarks from a table."""
     fields = _find_landmark_columns(table.names)
     timing = [i for i, name in enumerate(table.names) if is_timing(name)]
-    frame = _find_column(table.names, _FRAME)
+    frame = next((i for i, name in enumerate(table.names) if _FRAME.fullmatch(name.strip())), None)
     rows = table.numbers([*fields.values(), *timing, *([] if frame is None else [frame])]).T
-    poses = _make_poses(rows.shape[1])
+    poses = np.full((rows.shape[1], len(NAMES), 4), np.nan)
+    poses[..., 2:] = (0.0, 1.0)  # z and visibility if there are none
     for (landmark, field), column in zip(fields, rows, strict=False):
         poses[:, landmark, field] = column
     times = {table.names[i]: column for i, column in zip(timing, rows[len(fields) :], strict=False)}
-    numbers = None if frame is None else rows[-1]
-    return _poses_to_motion(table.content, poses, numbers, times, options)
-
-
-def read_long(table: DelimitedText, options: ReadOptions) -> Motion:
-    """Return the motion of MediaPipe's landmarks from a table with a row for each landmark."""
-    lower = [name.lower() for name in table.names]
-    fields = {field: lower.index(name) for name, field in _FIELDS.items() if name in lower}
-    landmark, frame = _find_column(table.names, _LANDMARK), _find_column(table.names, _FRAME)
-    timing = [i for i, name in enumerate(table.names) if is_timing(name)]
-    rows = table.numbers([frame or 0, *fields.values(), *timing]).T
-    landmarks = _parse_landmark_numbers(table.content, table.texts(landmark or 0)[: rows.shape[1]])
-    # Index of the frame of each row.
-    numbers, frame_index = np.unique(to_frame_numbers(table.content, rows[0]), return_inverse=True)
-    size = _BYTES_PER_POSE * len(numbers)
-    table.content.require_memory(size, f"{len(NAMES)} landmarks in {len(numbers)} frames")
-    poses = _make_poses(len(numbers))
-    for field, column in zip(fields, rows[1:], strict=False):
-        poses[frame_index, landmarks, field] = column
-    times = {table.names[i]: np.zeros(len(numbers)) for i in timing}
-    for column, row_times in zip(times.values(), rows[1 + len(fields) :], strict=True):
-        column[frame_index] = row_times
-    return _poses_to_motion(table.content, poses, numbers, times, options)
-
-
-def _make_poses(n: int) -> Floats:
-    """Return poses (n, 33, 4) without positions, with the default of z, 0, and visibility, 1."""
-    poses = np.full((n, len(NAMES), 4), np.nan)
-    poses[..., 2:] = (0.0, 1.0)
-    return poses
-
-
-def _poses_to_motion(
-    content: FileContent,
-    poses: Floats,
-    numbers: Floats | Ints | None,
-    times: Mapping[str, Floats],
-    options: ReadOptions,
-) -> Motion:
-    """Return the motion of poses (frames, 33, 4), with the frames' numbers and columns of times."""
     clock = Timing(options.fps or 0.0)
     gaps = clock.gaps
     if times and not options.fps:
-        clock = find_table_timing(content, times)
+        clock = find_table_timing(table.content, times)
         poses, gaps = place_points(clock, poses)
     # Numbers count frames only if no times do; a rate takes precedence over times.
     is_numbered = not times or options.fps or any(map(is_rate, times))
     frames = np.arange(len(poses))
-    if numbers is not None and is_numbered:
-        frames = to_frame_numbers(content, numbers)
+    if frame is not None and is_numbered:
+        frames = to_frame_numbers(table.content, rows[-1])
     people = [
-        Person(frame, pose[:, :3], pose[:, 3])
-        for frame, pose in zip(frames.tolist(), poses, strict=True)
+        Person(number, pose[:, :3], pose[:, 3])
+        for number, pose in zip(frames.tolist(), poses, strict=True)
         if np.isfinite(pose[:, :2]).any()
     ]
     motion = landmarks_to_motion(
-        content, people, options, fps=clock.fps or None, frames=frames.tolist(), notes=clock.notes
-    )
+        table.content, people, options, fps=clock.fps or None, frames=frames.tolist(),
+        notes=clock.notes,
+    )  # fmt: skip
     provenance = motion.provenance.timed(clock.clock, clock.row_seconds)
     return split_at(replace(motion, provenance=provenance), gaps)
 
@@ -367,24 +293,6 @@ def _find_landmark_columns(names: Sequence[str]) -> dict[tuple[int, int], int]:
     return {}
 
 
-def _parse_landmark_numbers(content: FileContent, texts: Sequence[str]) -> NDArray[np.intp]:
-    """Return the numbers of landmarks that are given by number or name."""
-    numbers = []
-    for text in texts:
-        # Names may be written as PoseLandmark.NOSE, numbers as 12.0.
-        word = text.rpartition(".")[2] if text[:1].isalpha() else text.removesuffix(".0")
-        name = normalize_name(word)
-        number = _PLACES.get(name, int(name) if name.isdecimal() and len(name) < 3 else -1)
-        if not 0 <= number < len(NAMES):
-            raise content.error(f"{text[:40]!r} is none of MediaPipe's {len(NAMES)} landmarks")
-        numbers.append(number)
-    return np.array(numbers, np.intp)
-
-
-def _find_column(names: Sequence[str], pattern: re.Pattern[str]) -> int | None:
-    return next((i for i, name in enumerate(names) if pattern.fullmatch(name.strip())), None)
-
-
 DIALECTS = (
     Dialect(
         "MediaPipe",
@@ -392,5 +300,4 @@ DIALECTS = (
         read_landmarks,
         motion=True,
     ),
-    Dialect("MediaPipe, a row per landmark", is_long, read_long, motion=True),
 )

@@ -4,77 +4,46 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import starmap
 
 from kineme.formats.files import FileContent
-from kineme.formats.keypoints import coco, mediapipe, openpose
+from kineme.formats.keypoints import mediapipe, openpose
+from kineme.formats.keypoints.detectors import find_detector, list_frames, read_detections
 from kineme.formats.keypoints.video import parse_json
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.recordings import Motion
 
-_SEVERAL = re.compile(rb'\s*(\[|\{\s*"\d+"\s*:)')
-_FRAMES = re.compile(rb"\s*\[\s*\[")
-_READERS = (
-    (openpose.is_openpose, openpose.read_openpose),
-    (coco.is_coco, coco.read_coco),
-    (coco.is_mmpose, coco.read_mmpose),
-    (mediapipe.is_mediapipe, mediapipe.read_mediapipe),
-    (coco.is_ultralytics, coco.read_ultralytics),
-)
-"""Test and reader of each program, in the order in which they are tried."""
-
-_OF_COCO = (b'"image_id"', b'"images"', b'"annotations"')
+_STARTS = {
+    # A single frame of OpenPose does not count: it belongs to its folder.
+    "OpenPose": rb'\s*(\[|\{\s*"\d+"\s*:).*"people"',
+    # The metadata of MMPose come first and may be long.
+    "MMPose": rb'.*"meta_info"|(?=.*"frame_id").*"instances"',
+    "COCO": rb'\s*\[(?=.*"image_id").*"keypoints"',
+    "MediaPipe": rb'(?i).*landmarks"\s*:',
+    "Ultralytics": rb'\s*\[\s*\[.*"box"',
+}
+"""How a JSON file of each program starts."""
 
 
 def read_pose_json(content: FileContent, options: ReadOptions) -> Motion:
     """Return the motion of one person in a JSON file of keypoints."""
     data = parse_json(content)
-    for recognises, read in _READERS:
-        if recognises(data):
-            return read(content, data, options)
+    if detector := find_detector(data):
+        return read_detections(content, options, detector, list_frames(data), data)
+    if mediapipe.is_mediapipe(data):
+        return mediapipe.read_mediapipe(content, data, options)
     raise content.error(
         "no keypoints found in it: kineme reads JSON of OpenPose ('people'), COCO "
-        "('keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (33 landmarks per "
-        "frame) or Ultralytics"
+        "(a list with 'keypoints' and 'image_id'), MMPose ('instances'), MediaPipe (a list "
+        "of frames with 33 landmarks) or Ultralytics"
     )
 
 
-def begins_openpose(head: bytes) -> bool:
-    """Return whether JSON starts like a list of OpenPose's frames, or frames keyed by number.
-
-    A single frame does not count: it belongs to its folder.
-    """
-    return b'"people"' in head and _SEVERAL.match(head) is not None
+def _make_format(name: str, start: bytes) -> Format:
+    pattern = re.compile(start, re.DOTALL)
+    return Format(name, (".json",), lambda head: pattern.match(head) is not None, read_pose_json)
 
 
-def begins_coco(head: bytes) -> bool:
-    """Return whether JSON starts like COCO's results, or like a data set of COCO.
-
-    For data sets that begin with their images, ``head`` includes the last bytes of the file.
-    """
-    return b'"keypoints"' in head and any(key in head for key in _OF_COCO)
-
-
-def begins_mmpose(head: bytes) -> bool:
-    """Return whether JSON starts like MMPose's predictions, with or without their metadata."""
-    return b'"instance_info"' in head or (b'"instances"' in head and b'"frame_id"' in head)
-
-
-def begins_mediapipe(head: bytes) -> bool:
-    """Return whether JSON starts like a list of MediaPipe's landmarks."""
-    return b'landmarks":' in head.lower().replace(b" ", b"")
-
-
-def begins_ultralytics(head: bytes) -> bool:
-    """Return whether JSON starts like Ultralytics' lists of people with boxes."""
-    return b'"box"' in head and _FRAMES.match(head) is not None
-
-
-_JSON = Format("OpenPose", (".json",), begins_openpose, read_pose_json)
-FORMATS = (
-    replace(_JSON, read_folder=openpose.read_openpose_folder),
-    replace(_JSON, name="MMPose", recognises=begins_mmpose),
-    replace(_JSON, name="COCO", recognises=begins_coco),
-    replace(_JSON, name="MediaPipe", recognises=begins_mediapipe),
-    replace(_JSON, name="Ultralytics", recognises=begins_ultralytics),
-)
+_OPENPOSE, *_OTHERS = starmap(_make_format, _STARTS.items())
+FORMATS = (replace(_OPENPOSE, read_folder=openpose.read_openpose_folder), *_OTHERS)

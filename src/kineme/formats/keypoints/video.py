@@ -116,10 +116,12 @@ def name_people(entries: Sequence[Mapping[str, Any]], *keys: str) -> list[str | 
     return [_to_name(each[key]) if key else None for each in entries]
 
 
-def _to_name(number: Any) -> str:
-    """Return the name of a person; AlphaPose writes [1.0] for 1."""
+def _to_name(number: Any) -> str | None:
+    """Return the name of a person; AlphaPose writes [1.0] for 1, OpenPose [-1] for None."""
     if isinstance(number, list) and len(number) == 1:
         number = number[0]
+    if number in (-1, []):
+        return None
     is_whole = isinstance(number, float) and number.is_integer()
     return str(int(number) if is_whole else number)[:40]
 

@@ -63,9 +63,7 @@ def read_c3d(content: FileContent, options: ReadOptions) -> Motion | Signals:
     file = parse_c3d(content)
     if options.channels or (file.analog.size and not file.labels):
         return _read_channels(content, file, options)
-    fps = content.choose_rate(options.fps, file.rate)
-    if not fps:
-        raise content.error("the file has no frame rate: give fps= (--fps)")
+    fps = content.choose_rate(options.fps, file.rate, "the file has no frame rate")
     notes = []
     markers, n_points = _find_markers(file), len(file.labels)
     if not markers:

@@ -234,10 +234,7 @@ def _parse_rate(content: FileContent, table: Capture, requested: float | None) -
         rate = float(table.rate)
     except ValueError:
         rate = 0.0
-    fps = content.choose_rate(requested, rate if 0 < rate < float("inf") else None)
-    if not fps:
-        raise content.error(f"{table.rate[:40]!r} is not a frame rate: give fps= (--fps)")
-    return fps
+    return content.choose_rate(requested, rate, f"{table.rate[:40]!r} is not a frame rate")
 
 
 DIALECTS = (

@@ -52,6 +52,10 @@ DEFAULT_RATE = 30.0
 MIN_RATE, MAX_RATE = 0.01, 100_000.0
 """Frames per second that are accepted as a rate."""
 MAX_FRAMES = 1e12
+SLACK = 0.05
+"""Fraction of the time between frames by which a key may miss its frame."""
+EVEN = 0.02
+"""Fraction of their mean by which steps between evenly spaced keys may differ."""
 TOLERANCE = 2e-6
 """Fraction by which a length or scale may vary and still count as constant."""
 MIN_FRAME_MEMORY = 1 << 28
@@ -393,6 +397,42 @@ def evaluate_bezier(
     rest = 1 - parameter
     value = rest**3 * start + 3 * rest**2 * parameter * out
     return np.asarray(value + 3 * rest * parameter**2 * into + parameter**3 * stop, np.float64)
+
+
+def is_even(times: Floats) -> bool:
+    """Return whether keys at these times are evenly spaced."""
+    steps = np.diff(times)
+    return len(steps) == 0 or bool(np.abs(steps / steps.mean() - 1).max() <= EVEN)
+
+
+def find_rate(
+    requested: float | None, stated: float, times: Floats
+) -> tuple[float, list[Note | str]]:
+    """Return frames per second and notes: as requested, else stated, else of evenly spaced keys.
+
+    ``stated`` is the file's rate, or 0. ``times`` are the seconds of the keys of a curve that has
+    many: these show uneven spacing best.
+    """
+    if requested is not None:
+        return requested, [f"sampled {requested:g} times per second, as requested"]
+    keys = 0.0
+    if len(times) > 2 and is_even(times):
+        n_steps = len(times) - 1
+        keys = n_steps / float(times[-1] - times[0])
+        # Round to an integer rate if it does not miss the last key by more than the slack.
+        is_near = abs(keys / max(round(keys), 1) - 1) * n_steps <= SLACK
+        keys = float(round(keys)) if is_near else round(keys, 3)
+    if MIN_RATE <= stated <= MAX_RATE:
+        # Sampling at the stated rate drops some of the keys.
+        note = f"{keys:g} keys a second are sampled at the file's {stated:g} Hz; fps= raises this"
+        return stated, [note] if keys > 1.5 * stated else []
+    if MIN_RATE <= keys <= MAX_RATE:
+        return keys, [f"frame rate {keys:g} Hz, from its keys"]
+    remark = (
+        "it states no frame rate, and its keys are not evenly spaced: "
+        f"{DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
+    )
+    return DEFAULT_RATE, [Note(remark, "warning")]
 
 
 def count_frames(

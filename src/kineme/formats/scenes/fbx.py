@@ -20,15 +20,13 @@ from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
-    DEFAULT_RATE,
-    MAX_RATE,
     MIN_FRAME_MEMORY,
-    MIN_RATE,
     assemble,
     count_frames,
+    find_rate,
 )
 from kineme.formats.scenes.characters import choose_take, find_character, find_moving_takes
-from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, SLACK, TICKS, Sampler
+from kineme.formats.scenes.fbx_curves import CUSTOM, RATES, TICKS, Sampler
 from kineme.formats.scenes.fbx_file import MAGIC, TEXT, parse_fbx
 from kineme.formats.scenes.fbx_scene import REST_TAKE, FBXScene, Pose, Take
 from kineme.formats.scenes.fbx_writer import CENTIMETRE, copy_takes, write_fbx, write_takes
@@ -76,40 +74,13 @@ def read_fbx(content: FileContent, options: ReadOptions) -> Motion:
 
 def _find_rate(
     scene: FBXScene, take: Take, joints: list[int], options: ReadOptions
-) -> tuple[float, list[str]]:
+) -> tuple[float, list[Note | str]]:
     """Return frames per second, and notes."""
-    if options.fps is not None:
-        return options.fps, [f"sampled {options.fps:g} times per second, as requested"]
     mode = int(scene.get_setting("TimeMode", 0))
     fps = RATES.get(mode, 0.0) if mode != CUSTOM else scene.get_setting("CustomFrameRate", 0.0)
-    keys = _infer_rate(scene, take, joints)
-    if not MIN_RATE <= fps <= MAX_RATE:
-        if keys:
-            note = f"frame rate {keys:g} Hz: the file states none, so that of its keys is used"
-            return keys, [note]
-        remark = f"the file states no frame rate: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
-        return DEFAULT_RATE, [Note(remark, "warning")]
-    # Sampling at the file's rate drops some of the keys.
-    if keys > 1.5 * fps:
-        note = f"{keys:g} keys a second are sampled at the file's {fps:g} Hz; fps= raises this"
-        return fps, [note]
-    return fps, []
-
-
-def _infer_rate(scene: FBXScene, take: Take, joints: list[int]) -> float:
-    """Return the keys per second of the first curve with evenly spaced keys; 0 if there is none."""
-    for times in scene.iterate_key_times(take, joints):
-        steps = np.diff(times)
-        if len(steps) < _EVEN_KEYS:
-            continue
-        median_step = float(np.median(steps))
-        # Allow for the rounding of ticks, or a thousandth of the step.
-        is_even = np.abs(steps - median_step) <= max(2 * SLACK, 1e-3 * median_step)
-        fps = TICKS / median_step
-        if is_even.mean() > 0.9 and MIN_RATE <= fps <= MAX_RATE:
-            return round(fps, 3)
-        return 0.0
-    return 0.0
+    times = max(scene.iterate_key_times(take, joints), key=len, default=np.empty(0))
+    # A few keys are set by hand, whatever their distance.
+    return find_rate(options.fps, fps, times / TICKS if len(times) > _EVEN_KEYS else np.empty(0))
 
 
 def _compute_frame_times(scene: FBXScene, take: Take, joints: list[int], fps: float) -> Floats:

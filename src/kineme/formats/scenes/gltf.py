@@ -27,15 +27,14 @@ from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.registry import Format
 from kineme.formats.scenes.assembly import (
-    DEFAULT_RATE,
-    MAX_RATE,
-    MIN_RATE,
+    SLACK,
     Transform,
     assemble,
     count_frames,
     decompose,
     evaluate_bezier,
     find_keys,
+    find_rate,
 )
 from kineme.formats.scenes.characters import (
     SceneNode,
@@ -52,13 +51,8 @@ from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
 
 TRANSLATION, ROTATION, SCALE = "translation", "rotation", "scale"
-SLACK = 0.05
-"""Fraction of the time between frames by which a key may miss its frame."""
-
-
 _JSON = re.compile(rb'"asset"\s*:\s*\{')
 _WIDTHS = {TRANSLATION: 3, ROTATION: 4, SCALE: 3}
-_EVEN = 0.02  # relative deviation from their mean of steps between evenly spaced keys
 _ROUNDED = 0.1  # frames by which the last key may miss its frame
 
 
@@ -207,27 +201,13 @@ def _read_keys(
 
 def _find_rate(
     file: GLTFFile, keys: dict[tuple[int, str], Keys], options: ReadOptions
-) -> tuple[float, list[str]]:
-    """Return frames per second, and notes."""
-    if options.fps is not None:
-        return options.fps, [f"sampled {options.fps:g} times per second, as requested"]
+) -> tuple[float, list[Note | str]]:
+    """Return frames per second, and notes; only files of kineme state a rate."""
     extras = file.tree.asset.extras
     settings = extras.get(EXTRAS) if isinstance(extras, dict) else None
     fps = settings.get("fps") if isinstance(settings, dict) else None
-    if isinstance(fps, int | float) and MIN_RATE <= fps <= MAX_RATE:
-        return float(fps), []
-    # The longest list of times shows uneven spacing best.
     times = max((track.times for track in keys.values()), key=len, default=np.empty(0))
-    steps = np.diff(times)
-    if len(steps) > 1 and np.abs(steps / steps.mean() - 1).max() <= _EVEN:
-        fps = len(steps) / float(times[-1] - times[0])
-        # Round to an integer rate if it does not miss the last key by more than the slack.
-        is_near = abs(fps / max(round(fps), 1) - 1) * len(steps) <= SLACK
-        fps = float(round(fps)) if is_near else round(fps, 3)
-        if MIN_RATE <= fps <= MAX_RATE:
-            return fps, [f"frame rate {fps:g} Hz, from its keys"]
-    remark = f"its keys are not evenly spaced: {DEFAULT_RATE:g} Hz assumed; give fps= (--fps)"
-    return DEFAULT_RATE, [Note(remark, "warning")]
+    return find_rate(options.fps, float(fps) if isinstance(fps, int | float) else 0.0, times)
 
 
 def _read_rest(node: SceneObject) -> Transform:

@@ -48,7 +48,15 @@ from kineme.formats.files import (
 from kineme.formats.options import ReadOptions
 from kineme.formats.plausibility import warn_of_gaps
 from kineme.formats.registry import Format
-from kineme.formats.scenes.assembly import Transform, assemble, compose, count_frames, decompose
+from kineme.formats.scenes.assembly import (
+    Transform,
+    assemble,
+    compose,
+    count_frames,
+    decompose,
+    find_rate,
+    is_even,
+)
 from kineme.formats.scenes.characters import SceneNode, choose_take, find_character, is_end
 from kineme.formats.units import make_up_rotation
 from kineme.recordings import Motion, Note
@@ -68,7 +76,6 @@ MIN_STAGE_MEMORY = 1 << 30
 TIMEOUT_S = 300.0
 """Seconds that reading a file may take."""
 
-_EVEN = 0.02  # relative deviation from their median of evenly spaced steps
 _ROUNDED = 0.1  # frames by which the last sample may miss its frame
 _PROGRAM = """
 import pickle, sys
@@ -263,7 +270,7 @@ def _find_frames(
     joints: int,
     options: ReadOptions,
     external_size: int,
-) -> tuple[float, Floats, list[str]]:
+) -> tuple[float, Floats, list[Note | str]]:
     """Return frames per second, the time code of each frame, and notes."""
     attributes = (
         animation.GetTranslationsAttr(), animation.GetRotationsAttr(), animation.GetScalesAttr(),
@@ -272,20 +279,14 @@ def _find_frames(
     samples = max((each.GetTimeSamples() for each in attributes), key=len)
     codes_per_second = stage.GetTimeCodesPerSecond()
     times = np.array(samples or [0.0], np.float64)
-    steps = np.diff(times)
-    median_step = float(np.median(steps)) if len(steps) else 1.0
-    notes: list[str] = []
-    if options.fps is not None:
-        fps = options.fps
-        notes.append(f"sampled {fps:g} times per second, as requested")
-    elif len(steps) and np.abs(steps / median_step - 1).max() > _EVEN:
-        fps = codes_per_second
-        remark = f"its samples are not evenly spaced: one is read per time code, {fps:g} Hz"
-        notes.append(Note(remark, "warning"))
-    else:
-        fps = codes_per_second / median_step
-    if not (np.isfinite(times).all() and 0 < fps < np.inf and codes_per_second > 0):
+    if not (np.isfinite(times).all() and 0 < codes_per_second < np.inf):
         raise content.error("states no valid frame rate: give fps= (--fps)")
+    even = is_even(times)
+    step = float(np.median(np.diff(times))) if even and len(times) > 1 else 1.0
+    fps, notes = find_rate(options.fps, codes_per_second / step, times / codes_per_second)
+    if options.fps is None and not even:
+        remark = f"its samples are not evenly spaced: one is read per time code, {fps:g} Hz"
+        notes = [Note(remark, "warning")]
     step = codes_per_second / fps
     count = (times[-1] - times[0]) / step + 1 + _ROUNDED
     n_frames = count_frames(content, joints, count, external_size=external_size)

@@ -70,9 +70,7 @@ def read_mvnx(content: FileContent, options: ReadOptions) -> Motion:
     positions = _stack_frames(content, subject, "position", 3 * n).reshape(-1, n, 3)[:, chosen]
     if not np.isfinite(positions).all():
         raise content.error("positions are not all numbers")
-    fps = content.choose_rate(options.fps, subject.rate)
-    if not fps > 0:
-        raise content.error("it states no frameRate: give fps= (--fps)")
+    fps = content.choose_rate(options.fps, subject.rate, "it states no frameRate")
     left_out = [name for name in subject.segments if name not in PARENTS]
     notes = [f"segments left out: {', '.join(left_out)}"] if left_out else []
     provenance = content.provenance("MVNX", notes).of_person(person, names_of_people)

@@ -184,12 +184,14 @@ class Step:
 class Record:
     """Content of ``history.json``; tables are given by number.
 
-    ``names`` are those of the last edits, empty for an edit without a name.
+    ``before`` is the table that the last change replaced. If that change was interrupted, it is in
+    the user's file. ``names`` are those of the last edits, empty for an edit without a name.
     """
 
     schema: str = SCHEMA
     revision: int = 0
     history: History[int] = field(default_factory=lambda: History(0))
+    before: int | None = None
     kept: tuple[int, ...] = ()
     names: tuple[str, ...] = ()
     steps: dict[int, Step] = field(default_factory=dict)
@@ -220,14 +222,19 @@ class Journal:
         digest = sha256(encode_table(table)).hexdigest()
         if steps and steps[history.present].n_frames == table.n_frames:
             # The file holds the present table, or the one before or after an interrupted change.
+            numbers = (history.present, self._record.before)
             for step in (history, _try_step(history.undone), _try_step(history.redone)):
-                if step is not None and self._matches(step.present, table, digest):
+                if step is None or step.present not in numbers:
+                    continue
+                if self._matches(step.present, table, digest):
                     if step is not history:  # the change was interrupted and never acknowledged
                         names, revision = self._record.names[:-1], self._record.revision - 1
                         self._record = replace(
                             self._record, history=step, names=names, revision=revision
                         )
                     return
+            # The last edit may have been interrupted: forget its name, so it can be sent again.
+            self._record = replace(self._record, names=self._record.names[:-1])
             self._record = self.make_change(table, None, replaced=True).record
         else:
             # The recording has another length now, so its old tables are useless.
@@ -310,6 +317,7 @@ class Journal:
         record = replace(
             change.record,
             revision=revision,
+            before=self._record.history.present,
             names=(*self._record.names, name)[-MAX_NAMES:],
             steps={number: step for number, step in steps.items() if number in needed},
         )

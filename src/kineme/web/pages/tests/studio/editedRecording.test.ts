@@ -225,6 +225,18 @@ describe("when the server is gone", () => {
     expect(edited.describeUnsent()).toEqual([]);
   });
 
+  it("a key that was pressed before is obeyed, also if an earlier outage is told of late", async () => {
+    server.latency = 2;
+    const edited = await open();
+    edited.edit(MOVE);
+    edited.runWhenShown(() => void edited.edit(SPLIT));
+    await Promise.resolve();
+    away = true; // the late answer to another request says so
+    await edited.waitUntilSent();
+    expect(server.got).toEqual([MOVE, SPLIT]);
+    expect(told).toEqual([]);
+  });
+
   it("nothing more is taken, and that is said", async () => {
     const edited = await open();
     away = true;

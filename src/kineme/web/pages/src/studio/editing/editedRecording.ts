@@ -48,6 +48,8 @@ export class EditedRecording {
   private readonly queue = signal<Turn[]>([]);
   private readonly edits = computed(() => this.queue.value.filter(isEdit));
   private sending: Promise<void> | null = null;
+  /** Whether a queued command runs; its edits were accepted when it was queued. */
+  private isRunningCommand = false;
   private announcedRevision = 0;
   /** Id of a cancelled edit. */
   private cancelledName = "";
@@ -77,6 +79,7 @@ export class EditedRecording {
 
   /** Return whether edits are possible; if not, say why. */
   acceptsEdits(): boolean {
+    if (this.isRunningCommand) return true;
     const why = this.context.isOffline() ? AWAY : this.blocked.peek() === null ? "" : UNDECIDED;
     if (why) this.context.tell(why, true);
     if (why) this.refreshTable();
@@ -200,7 +203,9 @@ export class EditedRecording {
     if (!isEdit(first!)) {
       batch(() => {
         this.queue.value = []; // edits of the command precede the rest
+        this.isRunningCommand = true;
         first?.();
+        this.isRunningCommand = false;
         this.queue.value = [...this.queue.peek(), ...rest];
       });
       return true;

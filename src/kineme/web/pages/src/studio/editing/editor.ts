@@ -2,7 +2,7 @@
  * Turn the user's commands into edits. They apply to the segment at the playhead on the edited
  * level, and to the border nearest to it; the timeline shows both. If the affected frame is not
  * visible, the first key press only scrolls to it. A key pressed while edits are being sent applies
- * to the playhead's position at that time, in the table that these edits produce.
+ * to the playhead's position and the view at that time, in the table that these edits produce.
  */
 import { batch, computed, signal } from "@preact/signals";
 import type { ByHand, Edit, Level, MoveBorder, Recording, Segment, Segments } from "../../messages";
@@ -217,12 +217,15 @@ export class Editor {
     act: (edit: Edit, where: commands.EditContext, place: PlayheadPosition) => void = (edit) =>
       void this.send(edit),
   ): void {
+    const { start_s, stop_s } = this.store.range.peek(); // visible when the key is pressed
     this.runInTurn((where, _, place) => {
       const edit = command(where);
       const frame = affects(where);
+      const at_s = (frame ?? 0) / this.store.fps.value;
+      const wasVisible = start_s <= at_s && at_s <= stop_s;
       if (!edit || frame === undefined) this.session.notifications.refuse(otherwise);
       else if (this.turnRecording !== this.session.edited.peek()) void this.send(edit);
-      else if (this.store.reveal(frame / this.store.fps.value))
+      else if (!wasVisible && this.store.reveal(at_s))
         this.session.notifications.tell("This is where it would be: press once more to do it.");
       else act(edit, where, place);
     });
