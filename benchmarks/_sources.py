@@ -22,7 +22,7 @@ from _measure import match_times
 from _options import DATA, choose_size
 from _recordings import Case, join_hdm05, read_rows, read_subject_86, synthesize_cases
 from _sparse_recordings import SparseCase, make_sparse_events, match_events, select_repetitions
-from kineme.evaluation import evaluate_segmentation, one_to_one_accuracy
+from kineme.evaluation import evaluate, one_to_one_accuracy
 from kineme.evaluation.comparison import UNLABELLED, Comparison, compare
 from kineme.evaluation.folder import find_recordings
 from kineme.evaluation.score import Ratio, pool_scores, scores
@@ -66,7 +66,7 @@ def judge_cases(made: Iterable[Case], every: int) -> Iterator[Sample]:
     """Yield recordings that annotators cut, or that were made with a known truth."""
 
     def judge(found: Segmentation, case: Case) -> Judged:
-        values = evaluate_segmentation(case.truth, found)
+        values = evaluate(case.truth, found)
         return {name: values[name] for name in ANNOTATED if name in values}
 
     for case in islice(made, None, None, every):

@@ -125,3 +125,10 @@ def test_public_doors_refuse_in_their_own_words(tmp_path: Path) -> None:
 def test_packages_of_the_docs_are_attributes(name: str) -> None:
     loaded = f"import kineme; from operator import attrgetter; attrgetter({name!r})(kineme)"
     assert "kineme" in loaded_by(loaded)
+
+
+@pytest.mark.parametrize("first", ["kineme.cycles", "from kineme.cycles import Cycles"])
+def test_cycles_is_one_thing_in_any_order(first: str) -> None:
+    check = "kineme.cycles.foot_events and callable(kineme.cycles)"
+    same = "pickle.loads(pickle.dumps(kineme.cycles)) is kineme.cycles"
+    loaded_by(f"import kineme, pickle; {first}; assert {check} and {same}")

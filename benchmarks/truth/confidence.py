@@ -266,12 +266,12 @@ def judge(source: str, recording: Motion | Signals, truth: Truth, near_s: float)
     segments = convert_columns(found.columns(), found.preset.working_fps)
     shown = found.evidence
     # One repetition is not a count.
-    of_counts = np.where(segments.counts < 2, np.nan, shown.repeated)
+    of_counts = np.where(segments.counts < 2, np.nan, shown.repetition_similarity)
     judged = (
         ("cluster", (shown.preferred, shown.agreement), judge_clusters(truth, segments)),
         ("border", (shown.sharpness,), judge_borders(truth, segments, near_s)),
         ("count", (of_counts,), judge_counts(truth, segments)),
-        ("cut", (shown.repeated[segments.parents],), judge_cuts(truth, segments)),
+        ("cut", (shown.repetition_similarity[segments.parents],), judge_cuts(truth, segments)),
     )
     group = "signals" if isinstance(recording, Signals) else "bodies"
     return [

@@ -20,7 +20,7 @@ import kineme_reproduction.benchmark  # noqa: F401 (the scores of the papers)
 from _figures import add_option, record
 from _options import find_data, make_parser
 from _recordings import Case, read_subject_86
-from kineme.evaluation import Labelling, Truth, evaluate, evaluate_segmentation
+from kineme.evaluation import Labelling, Truth, evaluate
 from kineme.methods.presets import DEFAULT, PUBLISHED
 from kineme_reproduction.baselines.segments import cut_uniformly
 
@@ -56,7 +56,7 @@ def score_presets(cases: Iterable[Case]) -> dict[str, Scores]:
     for case in cases:
         for preset in COMPARED:
             found = kineme.segment(case.motion, preset=preset)
-            rows[preset].append(evaluate_segmentation(case.truth, found))
+            rows[preset].append(evaluate(case.truth, found))
     return {preset: average(scores) for preset, scores in rows.items()}
 
 

@@ -30,7 +30,7 @@ from kineme.errors import ReadError
 from kineme.evaluation.comparison import Comparison
 from kineme.evaluation.folder import check_method, segment_with_method
 from kineme.evaluation.measures import one_to_one_accuracy
-from kineme.evaluation.score import evaluate_segmentation, register
+from kineme.evaluation.score import evaluate, register
 from kineme.evaluation.truth import TRANSITION, Labelling, Truth
 from kineme.methods.presets import PRESETS
 from kineme.segments.segmentation import Segmentation
@@ -128,9 +128,7 @@ def run(
 
 def scores_of(trial: Trial, found: Segmentation) -> Scores:
     """Return all scores of a segmentation of this trial; see `kineme.evaluation.evaluate`."""
-    return evaluate_segmentation(
-        trial.truth, found, positions=trial.positions, features=trial.features
-    )
+    return evaluate(trial.truth, found, positions=trial.positions, features=trial.features)
 
 
 def mean_scores(results: Sequence[Result]) -> dict[str, Scores]:

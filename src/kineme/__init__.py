@@ -10,6 +10,9 @@
 Every public name is importable from here; each is loaded when first used.
 """
 
+from importlib import import_module
+from typing import Any
+
 import lazy_loader
 
 from kineme._util.parallel import choose_numba_cache
@@ -17,8 +20,13 @@ from kineme._version import __version__
 
 choose_numba_cache()
 
-__getattr__, _, _names = lazy_loader.attach_stub(__name__, __file__)
+_load, _, _names = lazy_loader.attach_stub(__name__, __file__)
 __all__ = ["__version__", *_names]
+
+
+def __getattr__(name: str) -> Any:
+    # The package `cycles` can be called as the function that the stub names.
+    return import_module("kineme.cycles") if name == "cycles" else _load(name)
 
 
 def __dir__() -> list[str]:

@@ -38,6 +38,24 @@ def test_lines_become_events_a_table_and_a_recording(kineme, lines, tmp_path):
     assert (recording.n_frames, recording.fps) == (16 * FPS, FPS)
 
 
+@pytest.mark.parametrize("own_lines", [False, True])
+def test_a_slow_channel_makes_no_gaps(kineme, own_lines):
+    rows = two_exercises(8.0)[: int(16 * FPS)]
+    lines = [{"t_s": i / FPS, "x": x, "y": y} for i, (x, y) in enumerate(rows.tolist())]
+    lines[0]["pulse"] = 60
+    for second in range(1, 16):
+        row = lines[int(second * FPS)]
+        if own_lines:
+            lines.append({"t_s": row["t_s"] + 0.004, "pulse": 60 + second})
+        else:
+            row["pulse"] = 60 + second
+    text = "".join(f"{json.dumps(line)}\n" for line in sorted(lines, key=lambda line: line["t_s"]))
+    done = kineme("live", "--json", text=text)
+    events = [json.loads(line) for line in done.stdout.splitlines()]
+    assert not [event for event in events if event["event"] == "Gap"]
+    assert [e["event"] for e in events if e["state"] == "final"].count("Repetition") > 4
+
+
 def test_a_killed_run_is_recovered(kineme, lines, tmp_path):
     options = ["--quiet", "--fps", str(FPS), "--record", str(tmp_path / "take")]
     command = [sys.executable, "-m", "kineme", "live", *options]

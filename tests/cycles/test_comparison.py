@@ -16,7 +16,8 @@ from kineme.cycles.comparison import pair_sides
 from kineme.datasets.synthetic import SyntheticRecording
 from kineme.errors import ParameterError
 from kineme.plot import plot_sides
-from kineme.recordings import Signals
+from kineme.recordings import Motion, Signals
+from kineme.segments.segmentation import Segmentation
 from rows import pick_row
 
 
@@ -109,6 +110,23 @@ def test_curves_are_compared_group_by_group_whatever_their_order(cycles) -> None
     np.testing.assert_allclose(compare_curves(cycles, turned)["difference"], 5)
     table = compare_sessions(cycles, turned)
     assert np.nan_to_num(table["difference"]).tolist() == [0] * len(table["difference"])
+
+
+@pytest.mark.parametrize("compare", [compare_sessions, compare_curves])
+def test_numbers_of_clusters_are_those_of_one_recording(walks, compare) -> None:
+    columns = {**walks.truth.table.columns(), "label": [""] * len(walks.truth)}
+    bare = Segmentation.from_columns(columns, n_frames=walks.truth.n_frames, fps=60.0)
+    other = replace(walks.motion, positions=1.1 * walks.motion.positions)
+
+    def measure(motion: Motion, **options: bool) -> Cycles:
+        return kineme.cycles(motion, bare, channels=["knee_l"], **options)
+
+    first, second = measure(walks.motion), measure(other)
+    with pytest.raises(ParameterError, match="no group in common: cluster 0, cluster 1 and clust"):
+        compare(first, second)
+    alone = [each.select(each.columns["group"] == "cluster 1") for each in (first, second)]
+    same = (first, first), alone, [measure(each, common=True) for each in (walks.motion, other)]
+    assert [len({*compare(*each)["group"].tolist()}) for each in same] == [2, 1, 2]
 
 
 def test_what_cannot_be_compared_is_refused(walks, cycles) -> None:

@@ -241,7 +241,9 @@ def test_events_become_labels(walk: Motion, tmp_path: Path) -> None:
     spans = events.segmentation("left foot strike")
     assert spans.n_frames == walk.n_frames
     named = spans.activities.select(spans.activities.label == "left foot strike")
-    assert named.start_frame.tolist() == np.rint(100 * events.at("left foot strike")).tolist()
+    strikes = np.rint(100 * events.at("left foot strike")).tolist()
+    assert named.start_frame.tolist() == strikes[:-1]
+    assert named.stop_frame.tolist() == strikes[1:]
     kineme.write_segments(events.segmentation(), tmp_path / "e.TextGrid")
     labels = kineme.read_segments(tmp_path / "e.TextGrid", fps=100).activities.label
     assert {*labels.tolist()} >= {"left foot strike", "right foot off"}

@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import kineme
@@ -184,7 +185,7 @@ def test_one_repetition_has_no_deviation_and_none_is_no_error(walks) -> None:
     assert one.columns["place"].tolist() == ["only"]
     assert np.isnan(one.summary(ends=True)["sd"]).all()
     assert one.summary()["n"].tolist() == [0] * 10
-    nothing = kineme.cycles(motion, one_activity(200, 60.0))
+    nothing = kineme.cycles(motion, replace(one_activity(200, 60.0), provenance={"preset": "x"}))
     assert len(nothing) == 0
     assert nothing.groups == []
     assert len(nothing.summary()["n"]) == 0
@@ -213,6 +214,53 @@ def test_channels_beside_are_measured_at_their_own_rate(walks) -> None:
     np.testing.assert_allclose(
         cycles.columns["clock.range"], cycles.columns["duration_s"], atol=2e-3
     )
+
+
+def test_what_was_not_recorded_beside_is_missing(walks) -> None:
+    squats = walks.truth.primitives[walks.truth.primitives.label == "squat"]
+    seconds = np.arange(walks.motion.n_frames * 10) / 600
+    # The signals end in the middle of the third squat.
+    end = (squats.start_s[2] + squats.stop_s[2]) / 2
+    full, part, exact = (
+        kineme.cycles(
+            walks.motion, walks.truth, beside=[Signals(each, 600.0, ["clock"])], channels=["clock"]
+        )
+        # The last ends with the last frame of the motion.
+        for each in (seconds, seconds[seconds < end], seconds[:-9])
+    )
+    assert np.isfinite(exact.columns["clock.range"]).all()
+    recorded = full.columns["stop_s"] <= end
+    assert np.isnan(part.columns["clock.range"]).tolist() == (~recorded).tolist()
+    np.testing.assert_array_equal(part.curves[recorded], full.curves[recorded])
+    cut = part.curves[np.flatnonzero(~recorded)[0], 0]
+    known = np.isfinite(cut)
+    assert 20 < known.sum() < 80
+    np.testing.assert_allclose(cut[known], full.curves[np.flatnonzero(~recorded)[0], 0][known])
+
+
+def test_rows_of_labels_are_measured_one_by_one(walks) -> None:
+    spans, n_frames = [(6, 72), (72, 138), (144, 216), (216, 282)], walks.motion.n_frames
+    rows = [("activity", "activity", *span, -1, "stride") for span in spans]
+    gaps = [(0, 6), (138, 144), (282, n_frames)]
+    rows += [("activity", "transition", *span, -1, "") for span in gaps]
+    labels = from_rows(sorted(rows, key=lambda row: row[2]), fps=60.0)
+    measured = kineme.cycles(walks.motion, labels, channels=["knee_l"]).columns
+    assert [*zip(measured["start_frame"], measured["stop_frame"], strict=True)] == spans
+    assert {*measured["place"]} == {"inner"}
+    moved = kineme.cycles(walks.motion, labels, channels=["knee_l"], refine=True).columns
+    assert moved["start_frame"].tolist() != measured["start_frame"].tolist()
+
+
+def test_a_data_frame_is_measured_like_signals(walks) -> None:
+    frame = pd.DataFrame(walks.motion.positions[:, 5], columns=["x", "y", "z"])
+    signals = Signals(frame.to_numpy(), 60.0, list(frame))
+    wanted = kineme.cycles(signals, walks.truth)
+    for data, table in ((frame, walks.truth), ([frame], [walks.truth])):
+        np.testing.assert_array_equal(kineme.cycles(data, table).curves, wanted.curves)
+    with pytest.raises(ParameterError, match="cycles takes Motion or Signals, not int"):
+        kineme.cycles(5, walks.truth)
+    with pytest.raises(ParameterError, match="cycles takes a Segmentation, not NoneType"):
+        kineme.cycles(frame, None)
 
 
 @pytest.mark.parametrize("anchor", ["knee_r max", "knee_r > 40"])

@@ -5,14 +5,12 @@ from __future__ import annotations
 import pytest
 
 from kineme.errors import ReadError
-from kineme.evaluation import TRANSITION
+from kineme.evaluation import TRANSITION, annotator_agreement, evaluate
 from kineme.evaluation.comparison import compare
 from kineme.evaluation.inputs import (
     find_differences,
     read_result,
     read_truth,
-    score,
-    score_agreement,
 )
 from kineme.evaluation.score import compute_results, get_value
 from kineme.evaluation.truth import make_truth
@@ -85,7 +83,7 @@ def test_silence_at_the_ends_counts_in_nothing(tmp_path) -> None:
     truth = read_truth(path, result())
     assert truth.labels == (TRANSITION, "walk", "run", TRANSITION)
     found = labels_as(tmp_path / "found.csv", ["0,2,a", "2,4,b", "4,6,c"])
-    scores = score(truth, found)
+    scores = evaluate(truth, found)
     assert scores["mof"] == scores["border_f1"] == scores["covering"] == 1.0
     assert scores["cluster_ratio"] == scores["cut_ratio"] == 1.0
 
@@ -120,7 +118,7 @@ def test_repetitions_are_counted_however_labels_tell_them(
     labels_as(tmp_path / "truth.csv", rows, header)
     truth = read_truth(tmp_path / "truth.csv", counted_wrong)
     assert (truth.labels, truth.counts) == (("squat", "walk"), (3, None))
-    one = score(truth, counted_wrong)
+    one = evaluate(truth, counted_wrong)
     folder = folder_scores(tmp_path / "truth.csv", counted_wrong)
     for scores in (one, folder):
         assert (scores["count_error"], scores["count_exact"]) == (1.0, 0.0)
@@ -135,15 +133,40 @@ def folder_scores(path, found: Segmentation) -> dict[str, float]:
     return {name: get_value(one) for name, one in compute_results(compare(truth, found)).items()}
 
 
+@pytest.mark.parametrize("rests", [(), ("0,2,rest,activity,", "8,12,rest,activity,",
+                                        "16,18,rest,activity,")])  # fmt: skip
+def test_rests_between_sets_need_no_labels(tmp_path, rests: tuple[str, ...]) -> None:
+    sets = ["2,8,squat,activity,4", "12,16,curl,activity,3"]
+    found = [(0, 2.2), (2.2, 3.6), (3.6, 5), (5, 6.4), (6.4, 7.8), (7.8, 12.2), (12.2, 13.4),
+             (13.4, 14.6), (14.6, 15.8), (15.8, 18)]  # fmt: skip
+    clusters = [2, *[0] * 4, 2, *[1] * 3, 2]
+    rows = [f"{a},{b},,primitive,,{c}" for (a, b), c in zip(found, clusters, strict=True)]
+    rows += ["0,2.2,,activity,,2", "2.2,7.8,,activity,,0", "7.8,12.2,,activity,,2",
+             "12.2,15.8,,activity,,1", "15.8,18,,activity,,2"]  # fmt: skip
+    result = labels_as(tmp_path / "found.csv", rows, f"{LEVELS},cluster")
+    path = tmp_path / "truth.csv"
+    labels_as(path, sorted([*sets, *rests], key=lambda row: float(row.split(",")[0])), LEVELS)
+    for scores in (
+        evaluate(read_truth(path, result), result),
+        folder_scores(path, result),
+        evaluate(LabelSource(path).of(n_frames=180, fps=10), result),
+    ):
+        for name in ("count_exact", "border_f1", "edit", "f1@50", "border_ratio"):
+            assert scores[name] == 1.0, name
+    labels = {"Anna": LabelSource(path).of(n_frames=180, fps=10)}
+    agreement = annotator_agreement({"take": labels | {"Ben": labels["Anna"]}})
+    assert agreement.pairs[0].border_f1 == 1.0
+
+
 def test_primitives_alone_are_repetitions_with_pauses_between_them(tmp_path, counted_wrong) -> None:
     rows = ["0,1.6,squat,primitive,", "2,4,squat,primitive,", "4,6,squat,primitive,",
-            "8.5,9,jump,primitive,"]  # fmt: skip
+            "6.8,9,jump,primitive,"]  # fmt: skip
     labels_as(tmp_path / "truth.csv", rows, LEVELS)
     truth = read_truth(tmp_path / "truth.csv", counted_wrong)
     assert (truth.labels, truth.counts) == (("squat", "jump"), (3, 1))
     assert truth.earliest.tolist() == [60]
     one, folder = (
-        score(truth, counted_wrong),
+        evaluate(truth, counted_wrong),
         folder_scores(tmp_path / "truth.csv", counted_wrong),
     )
     for scores in (one, folder):
@@ -158,7 +181,7 @@ def test_an_activity_may_be_called_transition_in_a_segment_table() -> None:
         fps=10,
     )  # fmt: skip
     assert make_truth(table, n_frames=60, fps=10).labels == ("transition (activity)", "walk")
-    found = score_agreement(table, table)
+    found = evaluate(table, table)
     assert found["cluster_ratio"] == found["border_f1"] == found["mof"] == 1.0
     assert get_value(compute_results(compare(table, table))["mof"]) == 1.0
 
@@ -174,10 +197,10 @@ def test_counts_of_neighbours_of_one_name_add_up(tmp_path) -> None:
 def test_a_border_found_near_the_end_of_an_action_is_no_wrong_repetition(tmp_path) -> None:
     labels_as(tmp_path / "truth.csv", ["0,2,a", "2,4,a", "4,6,b", "6,8,b"])
     found = labels_as(tmp_path / "found.csv", ["0,2,a", "2,4.3,a", "4.3,6,b", "6,8,b"])
-    assert score(read_truth(tmp_path / "truth.csv", found), found)["repetition_f1"] == 1.0
+    assert evaluate(read_truth(tmp_path / "truth.csv", found), found)["repetition_f1"] == 1.0
     labels_as(tmp_path / "truth.csv", ["0,0.6,a", "0.6,1.2,a"])  # within a quarter: 0.15 s
     found = labels_as(tmp_path / "found.csv", ["0,0.8,a", "0.8,1.2,a"])
-    assert score(read_truth(tmp_path / "truth.csv", found), found)["repetition_f1"] == 0.0
+    assert evaluate(read_truth(tmp_path / "truth.csv", found), found)["repetition_f1"] == 0.0
 
 
 def test_labels_without_a_rate_need_one_only_where_they_count_frames(tmp_path) -> None:

@@ -19,15 +19,16 @@ from kineme.evaluation import (
     Truth,
     border_ratio,
     border_score,
+    compare,
     covering,
     cut_ratio,
     evaluate,
-    evaluate_segmentation,
     one_to_one_accuracy,
     scores,
 )
 from kineme.evaluation.measures import find_border_frames
 from kineme.evaluation.score import get_value
+from kineme.recordings import Signals
 from segmentations import from_rows
 
 SHARES = [
@@ -180,7 +181,7 @@ def test_labels_without_gaps_score_as_a_truth_of_exact_borders(labels, data):
 def test_a_short_transition_is_one_border_and_a_long_one_two():
     truth = Truth(("a", "b"), [18], [20], [22], 60, 10.0)
     short = Labelling([0, 17, 25, 60], ("1", TRANSITION, "2"), 10.0)
-    long = Labelling([0, 17, 27, 60], ("1", TRANSITION, "2"), 10.0)
+    long = Labelling([0, 17, 28, 60], ("1", TRANSITION, "2"), 10.0)
     assert border_score(of(truth, short)) == (1, 1, 1)
     assert border_score(of(truth, long)).precision == 1 / 2
     assert (
@@ -211,7 +212,7 @@ def test_a_segmentation_is_scored_at_its_own_levels():
     rows += [("primitive", "primitive", 0, 60, 0, ""), ("primitive", "primitive", 60, 112, 0, "")]
     rows += [("primitive", kind, start, stop, -1, "") for start, stop, kind in spans[1:]]
     found = from_rows(rows, fps=120.0)
-    scores = evaluate_segmentation(truth, found)
+    scores = evaluate(truth, found)
     assert scores["one_to_one"] == scores["border_f1"] == 1
     assert scores["cluster_ratio"] == scores["border_ratio"] == 1
 
@@ -234,6 +235,15 @@ def test_labels_of_another_length_than_the_recording_are_one_clear_error():
     truth = Truth(("a",), [], [], [], 60, 10.0)
     with pytest.raises(ParameterError, match="cover 5.000 s .*lasts 6.000 s"):
         evaluate(truth, Labelling([0, 50], ("1",), 10.0))
+
+
+@pytest.mark.parametrize("measure", [evaluate, compare])
+def test_what_is_no_segmentation_is_one_clear_error(measure):
+    table = from_rows([("activity", "activity", 0, 60, 0, "a")], fps=10.0)
+    assert measure(table, table)
+    for sides in ((Signals(np.zeros((60, 1)), 10.0), table), (table, "table.csv")):
+        with pytest.raises(ParameterError, match="takes a Segmentation.* not .*: kineme.read_segm"):
+            measure(*sides)
 
 
 @pytest.mark.parametrize("labels", [(), (TRANSITION,)])

@@ -169,6 +169,23 @@ def test_dates_tell_the_rate(tmp_path, moment) -> None:
     assert read(tmp_path / "b.parquet").fps == 50
 
 
+EVEN = np.arange(400) / 100
+
+
+@pytest.mark.filterwarnings("ignore:.*rows with the same time as the row before")
+@pytest.mark.parametrize(
+    "form",
+    ["{minutes:02}:{seconds:06.3f}", "0:{minutes:02}:{seconds:06.3f}", "{minutes}:{whole:02}"],
+)
+def test_times_without_hours_are_minutes_and_seconds(tmp_path, form) -> None:
+    at = [(i / 50 // 60, i / 50 % 60) for i in range(58 * 50, 70 * 50)]
+    texts = [form.format(minutes=int(m), seconds=s, whole=int(s)) for m, s in at]
+    rows = "".join(f"{text},{i}\n" for i, text in enumerate(texts))
+    signals = read(write(tmp_path, "a.csv", f"time,a\n{rows}"))
+    frame = as_signals(pa.table({"time": texts, "a": range(600)}).to_pandas())
+    assert (signals.fps, signals.n_frames) == (frame.fps, frame.n_frames) == (50, 600)
+
+
 def read_clock(folder: Path, times: np.ndarray) -> Signals:
     """Signals whose one channel counts the rows of the file."""
     rows = "".join(f"{float(t)!r},{i}\n" for i, t in enumerate(times))
@@ -177,9 +194,6 @@ def read_clock(folder: Path, times: np.ndarray) -> Signals:
 
 def get_notes(signals: Signals) -> tuple[str, ...]:
     return signals.provenance.notes
-
-
-EVEN = np.arange(400) / 100
 
 
 @pytest.mark.parametrize(
@@ -352,7 +366,8 @@ def test_parquet(tmp_path) -> None:
     assert signals.values.tolist() == [[1, 4], [2, 5], [3, 6]]
     assert signals.fps == 2
     assert signals.provenance.notes == ("columns that are not channels: who",)
-    assert as_signals(table).values.tolist() == signals.values.tolist()
+    for times in (None, "time"):
+        assert as_signals(table, times=times).values.tolist() == signals.values.tolist()
     with pytest.raises(ReadError, match="cannot be read as numbers"):
         read(tmp_path / "a.parquet", columns=["who"])
 

@@ -65,8 +65,13 @@ def test_each_event_lasts_until_the_next(tmp_path) -> None:
 
 def test_cycles_between_events_of_one_name(tmp_path) -> None:
     path = write_c3d(tmp_path / "gait.c3d", GAIT)
-    found = read_events(path, names=["Right Foot Strike"])
-    assert found.cuts().tolist() == [20, 120]
+    found = read_events(path, names=["right foot  strike"])
+    rows = [(row.label, row.start_frame, row.stop_frame) for row in found.activities]
+    assert rows == [("", 0, 20), ("Right Foot Strike", 20, 120), ("", 120, 200)]
+    with pytest.raises(ParameterError, match="names of events must be a list of texts, not 'Right"):
+        read_events(path, names="Right Foot Strike")
+    with pytest.raises(ReadError, match="has one event 'Right Foot Off', but a span needs two"):
+        read_events(path, names=["Right Foot Off"])
     with pytest.raises(ReadError, match="no event 'Jump'; there are Left Foot Strike, Right"):
         read_events(path, names=["Jump"])
 
@@ -197,6 +202,8 @@ def test_what_cannot_be_written_is_said(tmp_path: Path) -> None:
         write_events(source, tmp_path / "copy.csv", TIMES, NAMES)
     with pytest.raises(WriteError, match="cannot take 304 events: a C3D file holds 255 at most"):
         write_events(source, tmp_path / "copy.c3d", [0.001 * i for i in range(300)], ["hop"] * 300)
+    with pytest.raises(ParameterError, match="no time 99 s in the recording, which lasts 2 s"):
+        write_events(source, tmp_path / "copy.c3d", [99.0], ["hop"])
     with pytest.raises(ParameterError, match="1 times, but 2 names"):
         write_events(source, tmp_path / "copy.c3d", [0.5], ["hop", "hop"])
     with pytest.raises(ReadError, match="is not a C3D file: events can only"):

@@ -214,15 +214,32 @@ def test_pympi_reads_what_we_write_and_we_read_what_it_writes(tmp_path) -> None:
     assert list_spans(back, "activity") == list_kept_spans(result, "activity", "elan")
 
 
-def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path) -> None:
+def write_tiers(path: Path, *tiers: str) -> Path:
     document = Elan.Eaf()
     document.remove_tier("default")
-    for tier in ("left", "right"):
+    for tier in tiers:
         document.add_tier(tier)
-        document.add_annotation(tier, 0, 500, "up")
-    document.to_file(str(tmp_path / "two.eaf"))
-    with pytest.raises(ReadError, match=r"has 2 tiers \(left, right\): keep one, or name one"):
-        read_segments(tmp_path / "two.eaf", fps=100)
+        for start in (0, 500) if tier.lower() == "primitive" else (0,):
+            document.add_annotation(tier, start, start + 500, f"in {tier}")
+    document.to_file(str(path))
+    return path
+
+
+@pytest.mark.parametrize("others", [(), ("primitive",)])
+def test_several_unknown_tiers_are_a_question_to_the_user(tmp_path, others) -> None:
+    path = write_tiers(tmp_path / "two.eaf", "left", "right", *others)
+    with pytest.raises(ReadError, match=r"tiers \(left, right.*\): keep one, or name one"):
+        read_segments(path, fps=100)
+
+
+@pytest.mark.parametrize(
+    "tiers",
+    [("Exercise", "primitive"), ("Activity", "Primitive"), ("notes", "activity", "PRIMITIVE")],
+)
+def test_tiers_of_levels_are_known_in_any_case(tmp_path, tiers) -> None:
+    found = read_segments(write_tiers(tmp_path / "take.eaf", *tiers), fps=100, n_frames=100)
+    assert found.activities.label.tolist()[0] == f"in {tiers[-2]}"
+    assert found.primitives.label.tolist() == [f"in {tiers[-1]}"] * 2
 
 
 def test_pandas_reads_bids_events_and_the_sidecar_describes_every_column(tmp_path) -> None:
@@ -396,6 +413,16 @@ def test_elan_names_the_video_of_the_recording(tmp_path: Path) -> None:
     video = {"path": str(tmp_path / "walk one.mp4"), "offset_s": 1.25}
     found = replace(found, provenance={**source, "video": video})
     assert media() == [{**named, "TIME_ORIGIN": "1250"}]
+
+
+@pytest.mark.parametrize("row", ["1.5,3.0,walk", "1,5;3,0;walk", "1.5\t3.0\twalk"])
+def test_an_elan_export_of_one_tier_without_its_name(tmp_path: Path, row: str) -> None:
+    separator = max("\t;,", key=row.count)
+    head = ["Begin Time - ss.msec", "End Time - ss.msec", "Annotation"]
+    path = tmp_path / "walk.csv"
+    path.write_text(f'"#file:///take.eaf"\n{separator.join(head)}\n{row}\n')
+    (found,) = [row for row in read_segments(path, fps=100, n_frames=400).activities if row.label]
+    assert (found.label, found.start_s, found.stop_s) == ("walk", 1.5, 3.0)
 
 
 @pytest.mark.parametrize(

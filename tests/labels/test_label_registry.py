@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from kineme.errors import ParameterError, ReadError
@@ -64,6 +65,10 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
         "onset;duration;label\n0;2,0;walk\n2,5;1,5;jump\n",
         "name\tbegin (ms)\tend (ms)\nwalk\t0\t2000\njump\t2500\t4000\n",
         "Name,Start,End,Label\nAnn,0,2,walk\nAnn,2.5,4,jump\n",
+        "from,to,trial_type\n0,2,walk\n2.5,4,jump\n",
+        "t_start,t_end,label\n0,2,walk\n2.5,4,jump\n",
+        "start_time,end_time,trial_type\n0,2,walk\n2.5,4,jump\n",
+        "start,end,label\n00:00.000,0:02,walk\n0:00:02.5,00:04,jump\n",
         "label,start,end,start_frame,stop_frame\njump,,,25,40\nwalk,,,0,20\n",
     ],
 )
@@ -74,8 +79,11 @@ def test_columns_of_intervals_have_usual_names(tmp_path: Path, text: str) -> Non
     found = read_segments(path, fps=10)
     assert found.activities.label.tolist() == ["walk", "", "jump"]
     assert found.activities.stop_frame.tolist() == [20, 25, 40]
-    path.write_text("from,to,label\n0,40,walk\n")
+    path.write_text("first,last,label\n0,40,walk\n")
     with pytest.raises(ReadError, match="no header line with the columns 'start_s', 'stop_s'"):
+        read_segments(path, fps=10)
+    path.write_text("time_s,frame,event\n0.5,5,left foot strike\n")
+    with pytest.raises(ReadError, match="table of events, .*: kineme events --labels FILE writes"):
         read_segments(path, fps=10)
 
 
@@ -141,6 +149,17 @@ def test_a_table_of_many_recordings_is_no_table_of_one(tmp_path: Path) -> None:
         read_segments(path, fps=10)
 
 
+def test_observations_of_boris_are_recordings(tmp_path: Path) -> None:
+    path = tmp_path / "events.csv"
+    rows = "a,10,walk,START,0\na,10,walk,STOP,2\nb,20,run,START,1\nb,20,run,STOP,1.5\n"
+    path.write_text(f"Observation id,FPS,Behavior,Behavior type,Time\n{rows}")
+    with pytest.raises(ReadError, match=r"labels of 2 recordings \(a, b\): keep one"):
+        read_segments(path)
+    found = read_labels("takes/b.bvh", path, n_frames=40, fps=20)
+    assert found.activities.label.tolist() == ["", "run", ""]
+    assert (found.activities.start_frame[1], found.provenance["labels"]["format"]) == (20, "boris")
+
+
 def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None:
     path = tmp_path / "frames.txt"
     path.write_text("stand up\n" * 30 + "transition\n" * 10 + "run\n" * 20)
@@ -151,9 +170,21 @@ def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None
         read_segments(path, fps=10)
 
 
+@pytest.mark.parametrize("form", ["%d", "%.18e"])
+def test_states_that_numpy_saved_are_labels(tmp_path: Path, form: str) -> None:
+    states = np.repeat([-1, 0, 1, -1], [20, 30, 40, 10])
+    np.savetxt(tmp_path / "states.txt", states, form)
+    found = read_segments(tmp_path / "states.txt", fps=10, n_frames=100)
+    assert found.activities.label.tolist() == ["", "0", "1", ""]
+    assert found.activities.stop_frame.tolist() == [20, 50, 90, 100]
+    with pytest.raises(ReadError, match="has labels of 100 frames, but the recording has 120"):
+        read_segments(tmp_path / "states.txt", fps=10, n_frames=120)
+
+
 @pytest.mark.parametrize(
     ("name", "text"),
     [
+        ("changes.txt", "120\n340\n600\n"),
         ("recording.csv", "time,x,y\n0,1,2\n"),
         ("signals.txt", "0.1 0.2\n0.3 0.4\n"),
         ("signals.tsv", "time\tx\n0\t1\n"),

@@ -240,6 +240,34 @@ def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
         build((), folder)
 
 
+@pytest.mark.parametrize("change", ["rename", "shorten and restore", "exchange"])
+def test_names_and_splits_follow_the_content_of_files(
+    takes: Path, tmp_path: Path, change: str
+) -> None:
+    own = copy_takes(takes, tmp_path, walk="walk.bvh", jacks="jacks.bvh")
+    folder, walk, jacks = tmp_path / "library", own / "walk.bvh", own / "jacks.bvh"
+    build(own, folder)
+    library = Library(folder)
+    for each in library.clusters():
+        library.name(each.cluster, f"movement {each.cluster}")
+    shared = next(each.cluster for each in library.clusters() if each.recordings == 2)
+    library.name(library.split(shared, ["jacks.bvh"]), "of one recording")
+    before = [each._replace(example="") for each in library.clusters()]
+    if change == "rename":
+        jacks.rename(own / "jumps.bvh")
+    elif change == "exchange":
+        jacks.rename(own / "aside")
+        walk.rename(jacks)
+        (own / "aside").rename(walk)
+    else:
+        whole = jacks.read_bytes()
+        kineme.write(kineme.read(jacks)[:500], jacks)
+        build((), folder)
+        jacks.write_bytes(whole)
+    build((), folder)
+    assert [each._replace(example="") for each in Library(folder).clusters()] == before
+
+
 def pieces_in(folder: Path) -> list[str]:
     """Those that are whole: what a killed worker was writing has another name."""
     return [name for name in contents(folder) if re.fullmatch(r"pieces/\w+\.parquet", name)]

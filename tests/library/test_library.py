@@ -182,6 +182,33 @@ def test_splits_that_make_no_sense_are_refused(library: Library) -> None:
         library.split(number, ["nobody.bvh"])
     with pytest.raises(ParameterError, match="one line of plain text"):
         library.name(number, "two\nlines")
+    with pytest.raises(ParameterError, match="a name must be a text, not 5"):
+        library.name(number, 5)  # type: ignore[arg-type]
+    with pytest.raises(ParameterError, match=r"must be a list of texts, not 'walk\.bvh'"):
+        library.split(number, "walk.bvh")
+
+
+def test_merges_keep_the_only_name_and_the_kind_of_recording(library: Library) -> None:
+    bodies, channels = (
+        [each.cluster for each in library.clusters() if (each.vocabulary == "bodies") == is_body]
+        for is_body in (True, False)
+    )
+    library.name(bodies[1], "walk").merge(bodies[0], "walk")
+    assert library.numbers("walk") == [bodies[0]]
+    with pytest.raises(ParameterError, match="and of bodies cannot be merged"):
+        library.merge("walk", channels[0])
+    assert library.numbers("walk") == [bodies[0]]
+
+
+def test_an_open_library_sees_what_others_change(folder: Path, takes: Path, tmp_path: Path) -> None:
+    library = Library(folder)
+    number = library.clusters()[0].cluster
+    Library(folder).name(number, "walk")
+    assert library.numbers("walk") == [number]
+    shutil.copy(takes / "walk.bvh", tmp_path / "again.bvh")
+    build(tmp_path / "again.bvh", folder)
+    counted = library.query("select count(distinct recording) n from embeddings").to_pylist()
+    assert counted == [{"n": len(library)}] == [{"n": 4}]
 
 
 def test_questions_in_sql(library: Library) -> None:

@@ -1,4 +1,4 @@
-"""Repetitions that are cut at other phases are counted once each."""
+"""What is final follows the latest look, and repetitions of two looks are counted once each."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from kineme.live.events import Finals, Row
+from kineme.live import ActivityEnded, ActivityStarted
+from kineme.live.events import Finals, Look, Looks, Row
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -38,3 +39,42 @@ def test_a_phase_that_keeps_changing_adds_no_repetition():
         finals.slip += slip
     assert finals.n_repetitions == 20
     assert abs(finals.counted - 400) <= 20
+
+
+def advance_by_looks(looks):
+    """Return the final borders and counts of looks at frames 80, 100, ... with a delay of 50."""
+    finals, before, events = Finals(10.0), None, []
+    for now, (activities, cuts) in zip(range(80, 1000, 20), looks, strict=False):
+        primitives = [
+            Row(a, b, row.cluster)
+            for row, step in zip(activities, cuts, strict=True)
+            for a, b in pairwise(range(row.start, row.stop + 1, step))
+        ]
+        look = Look(activities, primitives)
+        events += finals.advance(Looks(look, before, now - 50, 50, 400, now))
+        before = look
+    events += finals.close(1000, 100.0)
+    starts = [(e.start_s, e.cluster) for e in events if isinstance(e, ActivityStarted)]
+    return starts, [e.repetitions for e in events if isinstance(e, ActivityEnded)]
+
+
+def test_the_end_and_the_count_of_an_activity_follow_the_looks_at_all_of_it():
+    early = [([Row(0, now, 0)], [30]) for now in range(80, 200, 20)]
+    # Only now are the first repetitions told from those that began at frame 100.
+    late = [([Row(0, 100, 0), Row(100, now, 1)], [25, 40]) for now in range(200, 300, 20)]
+    starts, counts = advance_by_looks(early + late)
+    assert starts == [(0, 0), (10, 1)]
+    assert counts == [4, 4]
+
+
+def test_an_activity_goes_on_if_later_looks_do_not_see_its_start():
+    early = [([Row(0, 60, 0), Row(60, now, 1)], [30, 10]) for now in range(80, 160, 20)]
+    late = [([Row(0, now, 1)], [30]) for now in range(160, 400, 20)]
+    starts, _ = advance_by_looks(early + late)
+    assert starts == [(0, 0), (6, 1)]
+
+
+def test_a_part_of_a_repetition_is_no_activity_yet():
+    early = [([Row(0, 60, 0), Row(60, now, 1)], [30, now - 60]) for now in range(80, 160, 20)]
+    late = [([Row(0, now, 0)], [30]) for now in range(160, 400, 20)]
+    assert advance_by_looks(early + late)[0] == [(0, 0)]

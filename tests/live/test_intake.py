@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import pytest
 
@@ -39,6 +41,13 @@ def set_back(at: float, by: float) -> np.ndarray:
     return np.where(at <= EVEN, EVEN - by, EVEN)
 
 
+def only_at(rows: Iterable[int]) -> np.ndarray:
+    """Return the rows, with a value of the second channel in these only."""
+    return np.column_stack(
+        [ROWS[:, 0], np.where(np.isin(np.arange(N), [*rows]), ROWS[:, 1], np.nan)]
+    )
+
+
 CASES = {
     "without times": (ROWS, None, N, 0, ""),
     "nanoseconds since boot": (ROWS, EVEN * 1e9 + 8.1e10, N, 0, ""),
@@ -61,6 +70,9 @@ CASES = {
     "some NaN": (np.where(np.arange(2 * N).reshape(N, 2) % 3 == 1, np.nan, ROWS), None, N, 0, ""),
     "NaN for a second": (np.where((EVEN // 1 == 3)[:, None], np.nan, ROWS), None, N, 50, ""),
     "a channel of NaN": (ROWS * [1, np.nan], EVEN, N, 100, "channel y has no value"),
+    "one value a second": (only_at(range(25, N, 50)), EVEN, N, 10, ""),
+    "slow until second 6": (only_at(range(0, 300, 25)), EVEN, N, 162, ""),
+    "values in few rows": (only_at([0, 3, 260, 300, 301]), EVEN, N, 0, ""),
     "NaN throughout": (np.full((N, 2), np.nan), EVEN, N, N, ""),
     "one row": (ROWS[:1], EVEN[:1], 1, 0, ""),
 }

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 import kineme
 from kineme.datasets import Action, SyntheticRecording, synthesize
 from kineme.errors import EndEffectorError, MotionError, ParameterError
-from kineme.evaluation import Truth, evaluate_segmentation, make_labelling
+from kineme.evaluation import Truth, evaluate, make_labelling
 from kineme.methods.presets import PRESETS
 from kineme.methods.segmenter import segment
 from kineme.recordings import Motion, Skeleton
@@ -53,7 +53,7 @@ def test_legs_alone_tell_what_legs_do(names: list[str], seed: int) -> None:
     made = exercises(seed)
     found = segment(markers(made.motion, names))
     truth = Truth.from_labelling(make_labelling(made.truth.activities, fps=made.motion.fps))
-    assert evaluate_segmentation(truth, found)["border_f1"] >= 0.8  # within 0.25 s
+    assert evaluate(truth, found)["border_f1"] >= 0.8  # within 0.25 s
     assert found.repetitions().keys() == {0, 1, 2}  # steps of legs alone may be counted in pairs
 
 

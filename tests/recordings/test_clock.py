@@ -279,3 +279,19 @@ def test_recordings_are_given_one_at_a_time() -> None:
     for function in (kineme.segment, as_signals):
         with pytest.raises(ParameterError, match="list of recordings: give one at a time"):
             function([signals, signals])
+
+
+@pytest.mark.parametrize("mark", [".", ","])
+@pytest.mark.parametrize("times", [None, "time", "clock"])
+def test_numbers_as_text_in_a_data_frame(mark, times) -> None:
+    at = np.arange(400) / 100
+    values = np.stack([at, np.sin(at), np.cos(at)], axis=1).round(3)
+    frame = pd.DataFrame(values, columns=[times or "time", "acc_x", "acc_y"])
+    texts = frame.astype(str).map(lambda cell: cell.replace(".", mark)).assign(side="left")
+    texts.loc[7, "acc_x"] = None
+    signals = as_signals(texts, times=times)
+    assert (signals.fps, signals.names) == (100, ("acc_x", "acc_y"))
+    np.testing.assert_allclose(signals.values[:, 1], values[:, 2])  # noqa: PD011
+    assert ("numbers have a decimal comma" in signals.provenance.notes) == (mark == ",")
+    with pytest.raises(ParameterError, match="times is 'then': give a time for each row, or the"):
+        as_signals(frame, times="then")

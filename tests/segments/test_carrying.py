@@ -102,10 +102,13 @@ def test_checked_segments_are_never_changed(before, data) -> None:
 
 @given(segmentations(), st.lists(EDITS, min_size=1, max_size=6))
 def test_carrying_over_to_the_same_segments_changes_none(before, edits) -> None:
-    # Transitions of the methods and of edits are in no cluster.
-    table = before.table
-    clusters = np.where(table.kind == "transition", -1, table.cluster)
-    now = replace(before, table=table.with_columns(cluster=clusters))
+    # Transitions of the methods and of edits: in no cluster, with one primitive of this kind.
+    table, inner = before.table, before.primitives
+    counts = np.bincount(inner.activity, 1 + (inner.kind != "transition"), len(before.activities))
+    is_whole = np.append(counts <= 1, np.full(len(inner), True))
+    kinds = np.where(is_whole, table.kind, "activity")
+    clusters = np.where(kinds == "transition", -1, table.cluster)
+    now = replace(before, table=table.with_columns(kind=kinds, cluster=clusters))
     for edit, *arguments in edits:
         try:
             now = mark_edited(now, edit(now, *arguments))

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+import kineme
 from kineme.errors import ParameterError
 from kineme.segments import editing
 from kineme.segments.segmentation import Segmentation
@@ -218,8 +219,8 @@ def test_naming_one_segment_names_no_cluster() -> None:
 
 def test_clusters_are_merged_and_names_of_their_own_stay() -> None:
     merged = editing.merge_clusters(walk_pause_jump(), 0, 1)
-    assert spans(merged, "activity") == "0-30 c1 | 30-40 t | 40-60 c1"
-    assert spans(merged, "primitive").startswith("0-10 c1 | 10-20 c1 limp | 20-30 c1 |")
+    assert spans(merged, "activity") == "0-30 c1 walk | 30-40 t | 40-60 c1 walk"
+    assert spans(merged, "primitive").startswith("0-10 c1 walk | 10-20 c1 limp | 20-30 c1 walk |")
     into_named = editing.merge_clusters(walk_pause_jump(), 1, 0)
     assert spans(into_named, "primitive").endswith("40-50 c0 walk | 50-60 c0 walk")
     assert editing.cluster_names(into_named) == {0: "walk"}
@@ -243,6 +244,12 @@ def test_clusters_are_merged_and_names_of_their_own_stay() -> None:
         (editing.name_segment, ("activity", 0, "a\nb"), "one line"),
         (editing.name_cluster, (7, "a"), "no segment is in cluster 7"),
         (editing.name_cluster, (-1, "a"), "no segment is in cluster -1"),
+        (editing.name_cluster, (0, 5), "name of a cluster must be a text, not 5"),
+        (editing.name_cluster, (0, None), "must be a text, not None"),
+        (editing.name_cluster, ("0", "a"), "must be a whole number from -1, not '0'"),
+        (editing.name_segment, ("activity", 0, 5), "name of a segment must be a text, not 5"),
+        (editing.comment, ("activity", 0, None), "a comment must be a text, not None"),
+        (editing.set_cluster, ("activity", 0, "1"), "must be a whole number from -1, not '1'"),
         (editing.merge_clusters, (0, 7), "no segment is in cluster 7"),
         (editing.merge_clusters, (1, 1), "cannot be merged with itself"),
         (editing.check, ("activity", [0, 5], True), "starts at frame 5"),
@@ -253,6 +260,24 @@ def test_clusters_are_merged_and_names_of_their_own_stay() -> None:
 def test_refusals_say_what_to_do(edit, arguments, reason) -> None:
     with pytest.raises(ParameterError, match=reason):
         edit(walk_pause_jump(), *arguments)
+
+
+@pytest.mark.parametrize(
+    ("edit", "arguments"),
+    [
+        (editing.name_cluster, (1, "hop")),
+        (editing.name_segment, ("activity", 40, "hop")),
+        (editing.comment, ("activity", 0, "limps")),
+        (editing.set_cluster, ("activity", 30, 2)),
+        (editing.merge_clusters, (1, 0)),
+    ],
+)
+def test_numbers_and_texts_of_numpy_can_be_saved(tmp_path, edit, arguments) -> None:
+    """Such are those of ``np.unique(segments.activities.cluster)``."""
+    edited = edit(walk_pause_jump(), *(np.array([value])[0] for value in arguments))
+    kineme.write_segments(edited, tmp_path / "edited.json")
+    expected = edit(walk_pause_jump(), *arguments)
+    assert kineme.read_segments(tmp_path / "edited.json") == edited == expected
 
 
 def test_a_table_without_primitives_can_be_edited() -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from kineme.evaluation.score import evaluate_segmentation
+from kineme.evaluation.score import evaluate
 from kineme.methods.prepare import compute_motion_features
 from kineme.methods.presets import PUBLISHED
 from kineme.methods.region_growing.analysis import analyze_regions
@@ -162,7 +162,7 @@ def _draw(axes: Axes, scores: Sequence[tuple[float, Scores]], preset_value: floa
 
 
 def _mean(trials: Sequence[Trial], preset: RegionGrowingPreset) -> Scores:
-    return mean([evaluate_segmentation(t.truth, segment(t.motion, preset=preset)) for t in trials])
+    return mean([evaluate(t.truth, segment(t.motion, preset=preset)) for t in trials])
 
 
 def _wider(preset: RegionGrowingPreset, share: float) -> RegionGrowingPreset:

@@ -22,7 +22,6 @@ from kineme.cli.tables import make_table, show_written
 from kineme.cli.terminal import Console, print_skipped
 from kineme.cycles import (
     Cycles,
-    as_repetitions,
     channels_of,
     compare_curves,
     compare_sessions,
@@ -36,6 +35,7 @@ from kineme.cycles.events import OFF, STRIKE, normalize_event_name
 from kineme.cycles.export import SUFFIXES, TABLE_SUFFIXES
 from kineme.cycles.measure import cycles as measure_cycles
 from kineme.cycles.repetitions import is_event
+from kineme.cycles.table import INNER
 from kineme.errors import ParameterError
 from kineme.formats import read_analog
 from kineme.formats.options import ReadOptions
@@ -155,25 +155,13 @@ def cycles(
             beside = read_analog(path, options) if names and is_motion else None
             analog = [] if beside is None else [beside]
             listed = channels_of(recording, names, beside=analog) if len(batch.paths) > 1 else ()
-        # Labels without repetitions: each row is one repetition. A result of kineme without
-        # repetitions is left as it is: its activities are not repetitions.
-        is_found = table is None or "preset" in found.provenance
-        repetitions = found if is_found else as_repetitions(found)
         channel_names = tuple(channel.name for channel in listed)
-        # `as_repetitions` returns the same object if it changed nothing.
-        are_cycles = repetitions is not found
-        parts.append(
-            _SegmentedRecording(path, recording, repetitions, are_cycles, analog, channel_names)
-        )
+        parts.append(_SegmentedRecording(path, recording, found, analog, channel_names))
 
     for path in batch.paths:
         batch.run_each_person(path, read_options, read_one, tables=("--segments", segments))
     parts = _keep_common_channels(parts, batch)
     recordings, tables = [part.recording for part in parts], [part.segments for part in parts]
-    # Borders that people drew stay, unless they ask otherwise.
-    refine |= not any(part.are_cycles or "labels" in part.segments.provenance for part in parts)
-    # Cycles between events and those cut by hand are complete: the ends count as well.
-    ends |= is_event(anchor) if anchor else any(part.are_cycles for part in parts)
     if recordings:
         with batch.catch_result_errors():
             analog = [part.analog for part in parts]
@@ -182,10 +170,12 @@ def cycles(
                 anchor = _leave_out_side(anchor)
             result = measure_cycles(
                 recordings, tables, channels=names, anchor=anchor, beside=analog, common=common,
-                refine=refine, align=align,
+                refine=refine or None, align=align,
             )  # fmt: skip
             if len(result) == 0:
                 raise ParameterError(_explain_nothing(anchor, has_table=segments is not None))
+            # Cycles between events and those cut by hand are complete: the ends count as well.
+            ends |= bool((result.columns["place"] == INNER).all())
             result = _exclude_cycles(result, exclude or [])
             # The cycles of each recording that has some.
             owners = result.columns["recording"]
@@ -206,7 +196,6 @@ class _SegmentedRecording(NamedTuple):
     path: Path
     recording: Motion | Signals
     segments: Segmentation
-    are_cycles: bool  # whether rows of the table became repetitions, so that the ends count
     analog: list[Signals]
     channels: tuple[str, ...]
 

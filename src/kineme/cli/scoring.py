@@ -30,9 +30,10 @@ from kineme.evaluation.folder import (
     evaluate_folder,
     find_recordings,
 )
-from kineme.evaluation.inputs import read_result, read_truth, score
+from kineme.evaluation.inputs import read_result, read_truth
 from kineme.evaluation.score import (
     Result,
+    evaluate,
     explain_disagreement,
     format_score,
     make_score_rows,
@@ -200,7 +201,7 @@ def _show_agreement(result: AnnotatorAgreement) -> None:
 def score_file(path: Path, labels: Path, fps: float | None, *, quiet: bool) -> list[dict[str, Any]]:
     """Return the scores of a result as records; print them unless quiet."""
     result = read_result(path, fps=fps)
-    scores = score(read_truth(labels, result, fps=fps), result)
+    scores = evaluate(read_truth(labels, result, fps=fps), result)
     if not quiet:
         show_scores(path.name, {"score": scores})
     return [{"result": path.name, "truth": labels.name, **scores}]

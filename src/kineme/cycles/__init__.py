@@ -4,6 +4,8 @@ The package is callable like its function `cycles`, since both have the same nam
 """
 
 import sys
+from importlib import import_module
+from inspect import signature
 from types import ModuleType
 from typing import Any
 
@@ -47,8 +49,11 @@ __all__ = [
 
 
 class _CallableModule(ModuleType):
-    def __call__(self, *args: Any, **options: Any) -> Cycles:
-        return cycles(*args, **options)
+    __call__ = staticmethod(cycles)
+    __signature__ = signature(cycles)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return import_module, (self.__name__,)  # so that processes can be given `kineme.cycles`
 
 
 sys.modules[__name__].__class__ = _CallableModule

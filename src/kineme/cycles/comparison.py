@@ -4,7 +4,8 @@ Sides are pairs of channels whose names differ only in ``_l`` and ``_r`` at the 
 ``right``. Differences are taken within each cycle, with bounds by the paired t test. For
 ``stance_l`` and ``stance_r`` the means are compared, which are the stance phases.
 
-Sessions are compared by groups with the same name, such as repetitions with the same label.
+Sessions are compared by groups with the same name, such as repetitions with the same label. Unnamed
+clusters of different recordings are compared only if each recording has a single group.
 Differences are second minus first. Bounds are 95 % confidence intervals by Welch's t test, computed
 separately for each measure and each point of a curve.
 """
@@ -175,7 +176,7 @@ def compare_sessions(first: Cycles, second: Cycles, *, ends: bool = False) -> Co
     >>> table["group"][0].item(), table["measure"][0].item(), table["difference"][0].item()
     ('walk', 'duration_s', 0.0)
     """
-    _check_comparable(first, second)
+    first, second = _select_comparable(first, second)
     summaries = (each.summary(ends=ends) for each in (first, second))
     compared = _join_sessions(("group", "measure"), *summaries)
     # Take the shorter of both differences of a phase; its bounds shift by the same amount.
@@ -216,7 +217,7 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
     >>> len(compare_curves(cycles, cycles)["percent"]) == 101 * len(cycles.groups)
     True
     """
-    _check_comparable(first, second)
+    first, second = _select_comparable(first, second)
     if first.curves.shape[2] != second.curves.shape[2]:
         raise ParameterError(
             f"curves of {first.curves.shape[2]} and of {second.curves.shape[2]} points cannot be "
@@ -226,8 +227,8 @@ def compare_curves(first: Cycles, second: Cycles, *, ends: bool = False) -> Colu
     return _join_sessions(("group", "channel", "percent"), *curves)
 
 
-def _check_comparable(first: Cycles, second: Cycles) -> None:
-    """Raise ParameterError if the sessions have nothing to compare."""
+def _select_comparable(first: Cycles, second: Cycles) -> tuple[Cycles, Cycles]:
+    """Return the cycles of the groups in both; raise ParameterError if there are none."""
     for each in (first, second):
         check_type(
             each, Cycles, "comparing sessions", "kineme.cycles(recording, segments) gives them"
@@ -236,13 +237,23 @@ def _check_comparable(first: Cycles, second: Cycles) -> None:
         raise ParameterError(
             "two sessions can only be compared by the same channels: choose them by name"
         )
-    if not {*first.groups} & {*second.groups}:
+    shared = {*first.groups} & {*second.groups}
+    # Cluster numbers of two recordings are unrelated, but a single group of each may be compared.
+    if len(first.groups) > 1 or len(second.groups) > 1:
+        one, other = (each.provenance.get("unnamed", {}) for each in (first, second))
+        shared = {group for group in shared if one.get(group) == other.get(group)}
+    if not shared:
         raise ParameterError(
             f"the sessions have no group in common: {', '.join(first.groups) or 'none'} and "
-            f"{', '.join(second.groups) or 'none'}. Give clusters the same names (in the "
+            f"{', '.join(second.groups) or 'none'}. Give clusters the same names, since their "
+            "numbers are those of one recording (in the "
             "studio, or with `kineme library name` and `export` for --segments), or use "
             "--common (common=True) if equal numbers are equal movements"
         )
+    names = list(shared)
+    return first.select(np.isin(first.columns["group"], names)), second.select(
+        np.isin(second.columns["group"], names)
+    )
 
 
 def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Columns:

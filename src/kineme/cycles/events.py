@@ -106,7 +106,8 @@ class Events:
         Returns
         -------
         Segmentation
-            The part before the first event is a transition.
+            The part before the first event is a transition, and with ``name`` also the part after
+            the last.
 
         Raises
         ------
@@ -124,6 +125,8 @@ class Events:
         if not starts:
             known = join_names(sorted(set(self.names.tolist()))) or "none"
             raise ParameterError(f"no event {name or 'in the recording'}; there are: {known}")
+        if name is not None:  # what follows the last event is no cycle
+            starts[max(starts)] = ""
         # Before the first event there is a transition without a label.
         starts = {0: "", **starts}
         cuts = [*sorted(starts), self.n_frames]

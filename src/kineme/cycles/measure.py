@@ -8,8 +8,9 @@ subframe precision (`kineme.cycles.borders`), and cut at pauses or moved to even
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -26,19 +27,21 @@ from kineme.cycles.comparison import is_right
 from kineme.cycles.repetitions import (
     Repetition,
     anchor_repetitions,
+    convert_labels,
     cut_at_events,
     find_repetitions,
     get_movement_key,
     list_repetitions,
     parse_channel_anchor,
 )
-from kineme.cycles.table import BY_HAND, STATISTICS, Columns, Cycles
+from kineme.cycles.table import BY_HAND, INNER, STATISTICS, Columns, Cycles
 from kineme.errors import ParameterError
 from kineme.recordings import Motion, Signals
+from kineme.recordings.samples import as_signals
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
-Recordings = Motion | Signals | Sequence[Motion | Signals]
+Recordings = Motion | Signals | ArrayLike | Sequence[Motion | Signals | ArrayLike]
 
 POINTS = 101
 MOST_POINTS = 10_001
@@ -54,7 +57,7 @@ def cycles(
     anchor: str | Sequence[float] | None = None,
     beside: Sequence[Signals] | Sequence[Sequence[Signals]] = (),
     common: bool = False,
-    refine: bool = True,
+    refine: bool | None = None,
     align: str = LINEAR,
     points: int = POINTS,
 ) -> Cycles:
@@ -63,9 +66,10 @@ def cycles(
     Parameters
     ----------
     recordings : Motion or Signals, or a sequence of them
+        Arrays and data frames are converted with `kineme.as_signals`.
     segments : Segmentation, or a sequence of them
-        One for each recording. Their primitives are measured; `kineme.cycles.as_repetitions` makes
-        primitives of labels that have none.
+        One for each recording. Their primitives are measured. Of labels without primitives, such
+        as a table of ``start_s,stop_s,label``, each row is measured as an inner repetition.
     channels : iterable of str, optional
         Channels to measure, see `kineme.cycles.channels_of`; by default the angles of a body, or
         all channels of signals.
@@ -81,9 +85,9 @@ def cycles(
     common : bool
         Whether equal cluster numbers mean equal movements in all recordings, as in a library.
         Otherwise only equal labels do.
-    refine : bool
+    refine : bool, optional
         Whether borders move to a common phase and pauses are cut off. Otherwise they stay those of
-        the segments, as for repetitions that were cut by hand.
+        the segments. By default borders of labels stay, and others move.
     align : {"linear", "landmarks", "warp"}
         How curves of a group are aligned (`kineme.cycles.align`): linearly in time; so that
         maximum and minimum of the first channel coincide; or warped to the mean. Statistics are
@@ -123,14 +127,23 @@ def cycles(
     >>> squats.columns["knee_l.max"][squats.columns["group"] == "squat"].round().tolist()
     [113.0, 102.0, 103.0, 111.0]
     """
-    items, tables, signals = _check_inputs(recordings, segments, beside, points)
+    items, given, signals = _check_inputs(recordings, segments, beside, points)
+    tables = [convert_labels(table) for table in given]
+    # Numbers of the recordings whose rows became repetitions.
+    by_row = {i for i, table in enumerate(tables) if table is not given[i]}
     check_flag(common, "common")
+    if refine is None:
+        # Borders that people drew stay.
+        refine = not by_row and not any("labels" in table.provenance for table in tables)
     check_flag(refine, "refine")
     check_one_of(align, ALIGNMENTS, "align")
     names = _name_files(items)
     # Cluster numbers are not comparable between recordings, unless they are common.
-    groups = [_group_movements(table, "" if common or len(items) == 1 else f"{name}: ")
-              for table, name in zip(tables, names, strict=True)]  # fmt: skip
+    labels = [_find_labels(table) for table in tables]
+    groups = [
+        _name_movements(each, "" if common or len(items) == 1 else f"{name}: ")
+        for each, name in zip(labels, names, strict=True)
+    ]
     measured = [
         channels_of(recording, channels, beside=others)
         for recording, others in zip(items, signals, strict=True)
@@ -149,6 +162,12 @@ def cycles(
         )
         if channel_anchor is not None:
             repetitions = anchor_repetitions(repetitions, items, groups, channel_anchor, signals)
+        else:
+            # Cycles that people cut one by one are complete, also at the ends.
+            repetitions = [
+                replace(each, place=INNER) if each.recording in by_row else each
+                for each in repetitions
+            ]
     else:
         if not isinstance(anchor, str) and len(items) > 1:
             raise ParameterError(
@@ -157,6 +176,13 @@ def cycles(
         repetitions = cut_at_events(items, tables, anchor)
     columns = _make_columns(repetitions, tables, names, groups)
     provenance = _make_provenance(items, tables, repetitions, columns)
+    if not common:
+        provenance["unnamed"] = {
+            names[movement]: identity
+            for each, names, identity in zip(labels, groups, _identify(items, tables), strict=True)
+            for movement, label in each.items()
+            if not label
+        }
     spans = [(each.recording, each.start, each.stop) for each in repetitions]
     # Channels of the right side may have cycles of their own.
     right = [(each.recording, *(each.right or (each.start, each.stop))) for each in repetitions]
@@ -165,6 +191,7 @@ def cycles(
 
 def mark_excluded(cycles: Cycles, tables: Sequence[Segmentation]) -> Cycles:
     """Return the cycles with those excluded in the annotations of the tables marked."""
+    tables = [convert_labels(table) for table in tables]
     # In the order of the rows of `cycles`: by recording, then by time.
     rows = [(table, row) for table in tables for row in table.primitives if row.kind == "primitive"]
     reasons = _list_reasons(rows, cycles.columns["excluded"])
@@ -186,22 +213,19 @@ def measure_other_channels(cycles: Cycles, channels: Sequence[Channel]) -> Cycle
 
 
 def _check_inputs(
-    recordings: Recordings,
+    recordings: Any,
     segments: Segmentation | Sequence[Segmentation],
     beside: Sequence[Signals] | Sequence[Sequence[Signals]],
     points: int,
 ) -> tuple[list[Motion | Signals], list[Segmentation], list[Sequence[Signals]]]:
     """Return recordings, tables and signals as lists; raise ParameterError if they do not match."""
     advice = "beside= takes a list of signals"
+    tables = _check_list(segments, (Segmentation,), "kineme.segment(recording) gives one")
+    several = recordings if isinstance(recordings, Sequence) else [recordings]
     items = _check_list(
-        [recordings] if isinstance(recordings, Motion | Signals) else recordings,
+        [_convert_data(each, *tables[i : i + 1]) for i, each in enumerate(several)],
         (Motion, Signals),
         "kineme.read(path) gives a recording",
-    )
-    tables = _check_list(
-        [segments] if isinstance(segments, Segmentation) else segments,
-        (Segmentation,),
-        "kineme.segment(recording) gives one",
     )
     check_type(beside, Sequence, "cycles", advice)
     is_nested = bool(beside) and not isinstance(beside[0], Signals)
@@ -226,12 +250,21 @@ def _check_inputs(
     return items, tables, lists
 
 
+def _convert_data(data: Any, table: Segmentation | None = None) -> Any:
+    """Return arrays and data frames as signals, and all else as it is."""
+    if not hasattr(data, "__array__"):
+        return data
+    # Rows that are the frames of the table need no times.
+    fps = table.fps if table is not None and len(data) == table.n_frames else None
+    return as_signals(data, fps=fps)
+
+
 def _check_list(values: Any, kinds: tuple[type, ...], advice: str) -> list[Any]:
-    """Return the values as a list; raise ParameterError if one is of another type."""
-    check_type(values, Sequence, "cycles", advice)
-    for each in values:
+    """Return one value or several as a list; raise ParameterError if one is of another type."""
+    items = list(values) if isinstance(values, Sequence) else [values]
+    for each in items:
         check_type(each, kinds, "cycles", advice)
-    return list(values)
+    return items
 
 
 def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
@@ -250,8 +283,8 @@ def _name_files(recordings: Sequence[Motion | Signals]) -> list[str]:
     ]
 
 
-def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
-    """Return the group of each movement: its label, or its cluster."""
+def _find_labels(table: Segmentation) -> dict[int | str, str]:
+    """Return the label of each movement, or an empty text."""
     labels: defaultdict[int | str, Counter[str]] = defaultdict(Counter)
     for row in table.primitives:
         if row.kind == "primitive":
@@ -259,11 +292,26 @@ def _group_movements(table: Segmentation, prefix: str) -> dict[int | str, str]:
                 row.label or str(table.activities.label[row.activity])
             ] += 1
     # The most frequent label of a movement names all of its repetitions.
+    return {movement: counts.most_common(1)[0][0] for movement, counts in labels.items()}
+
+
+def _name_movements(labels: Mapping[int | str, str], prefix: str) -> dict[int | str, str]:
+    """Return the group of each movement: its label, or its cluster."""
     return {
-        movement: counts.most_common(1)[0][0]
-        or prefix + ("no cluster" if movement == "" else f"cluster {movement}")
-        for movement, counts in labels.items()
+        movement: label or prefix + ("no cluster" if movement == "" else f"cluster {movement}")
+        for movement, label in labels.items()
     }
+
+
+def _identify(
+    recordings: Sequence[Motion | Signals], tables: Sequence[Segmentation]
+) -> Iterator[str]:
+    """Yield a digest of each recording and its segments, within which cluster numbers hold."""
+    for recording, table in zip(recordings, tables, strict=True):
+        values = recording.positions if isinstance(recording, Motion) else recording.values
+        content = recording.provenance.sha256 or sha256(values.tobytes()).hexdigest()
+        rows = np.array([table.table.start_frame, table.table.stop_frame, table.table.cluster])
+        yield sha256(f"{content} {rows.tolist()}".encode()).hexdigest()
 
 
 def _make_columns(
@@ -341,6 +389,9 @@ def _measure_cycles(
     """
     channels = measured[0]
     curves = np.empty((len(spans), len(channels), points))
+    # A frame of the slowest recording.
+    timed = columns["stop_frame"] > 0
+    frame_s = np.max(columns["stop_s"][timed] / columns["stop_frame"][timed], initial=0.0)
     # Compute one channel at a time to save memory.
     for place, channel in enumerate(channels):
         statistics = np.full((len(spans), len(STATISTICS)), np.nan)
@@ -350,7 +401,7 @@ def _measure_cycles(
             for row, (recording, start, stop) in enumerate(own_spans):
                 if recording == number:
                     curves[row, place], statistics[row] = _measure_cycle(
-                        values, fps, start, stop, points
+                        values, fps, start, stop, points, frame_s
                     )
         for name, column in zip(STATISTICS, statistics.T, strict=True):
             columns[f"{channel.name}.{name}"] = column
@@ -368,7 +419,7 @@ def _measure_cycles(
 
 
 def _measure_cycle(
-    values: Floats, fps: float, start: float, stop: float, points: int
+    values: Floats, fps: float, start: float, stop: float, points: int, frame_s: float
 ) -> tuple[Floats, list[float]]:
     """Return the curve and the statistics of a cycle.
 
@@ -376,16 +427,19 @@ def _measure_cycle(
     nan. Both are nan if a border is missing.
     """
     last = len(values) - 1
-    # The last border may lie after the last frame.
-    first, end = min(start * fps, last), min(stop * fps, last)
+    first, end = start * fps, stop * fps
+    # The end of a recording is a frame after its last one, at which signals beside it may end.
+    if last < end <= last + max(1, frame_s * fps) + 1e-6:  # against rounding
+        end = float(last)
     # False for nan, which marks a missing border.
     if not np.isfinite([first, end]).all() or end <= first:
         return np.full(points, np.nan), [np.nan] * len(STATISTICS)
     # Both borders and the whole frames between them: extremes are searched at these.
     at = np.concatenate([[first], np.arange(int(first) + 1, np.ceil(end)), [end]])
     # Frames that the interpolation needs: one before the start and one after the end.
-    frames = np.arange(int(first), min(int(np.ceil(end)), last) + 1)
-    span = values[frames]
+    frames = np.arange(int(first), int(np.ceil(end)) + 1)
+    # Frames after the end were not recorded.
+    span = np.where(frames <= last, values[np.minimum(frames, last)], np.nan)
     cycle = np.interp(at, frames, span)
     curve = np.interp(np.linspace(first, end, points), frames, span)
     if not np.isfinite(span).all():

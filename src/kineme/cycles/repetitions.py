@@ -173,6 +173,14 @@ def as_repetitions(segments: Segmentation) -> Segmentation:
     )  # fmt: skip
 
 
+def convert_labels(segments: Segmentation) -> Segmentation:
+    """Return labels without repetitions as repetitions, one per row; results as they are.
+
+    Activities of a result without repetitions do not repeat.
+    """
+    return segments if "preset" in segments.provenance else as_repetitions(segments)
+
+
 def get_movement_key(segment: Segment) -> int | str:
     """Return what identifies the movement of a segment: the cluster, else the label."""
     return segment.cluster if segment.cluster >= 0 else segment.label

@@ -32,7 +32,6 @@ from kineme.evaluation.score import (
     Ratio,
     Score,
     evaluate,
-    evaluate_segmentation,
     register,
     scores,
 )
@@ -59,7 +58,6 @@ __all__ = [
     "cut_ratio",
     "edit_score",
     "evaluate",
-    "evaluate_segmentation",
     "fleiss_kappa",
     "frames_right",
     "make_labelling",

@@ -1,6 +1,6 @@
 """Measure the agreement of several people about the same recordings, corrected for chance.
 
-Every frame counts, at the rate at which results are compared (`kineme.evaluation.inputs`). Frames
+Every frame counts, at the rate at which results are compared (`kineme.evaluation.evaluate`). Frames
 without a label are a class of their own, as is usual for units of time (Bakeman, Quera and Gnisci,
 Observer agreement for timed-event sequential data, 2009).
 
@@ -29,10 +29,15 @@ from kineme._util.arrays import Ints
 from kineme._version import __version__
 from kineme.errors import KinemeError, ParameterError
 from kineme.evaluation.comparison import Comparison, Spans, find_runs, map_clusters
-from kineme.evaluation.inputs import choose_comparison_rate
 from kineme.evaluation.measures import border_score, cohen_kappa
 from kineme.evaluation.score import to_finite, to_plain
-from kineme.evaluation.truth import TRANSITION, UNLABELLED, Truth, make_truth
+from kineme.evaluation.truth import (
+    TRANSITION,
+    UNLABELLED,
+    Truth,
+    choose_comparison_rate,
+    make_truth,
+)
 from kineme.labels.collections import Extent, LabelSource
 from kineme.segments.segmentation import Segmentation
 
@@ -330,7 +335,7 @@ class _ClassNumbers:
 
 
 def _make_truth(found: Segmentation) -> Truth:
-    n_frames, fps = choose_comparison_rate(found)
+    n_frames, fps = choose_comparison_rate(found.n_frames, found.fps)
     truth = make_truth(found, n_frames=n_frames, fps=fps)
     return Truth.from_labelling(truth.labelling().merged())
 

@@ -24,10 +24,11 @@ from itertools import pairwise
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from kineme._util.arrays import Ints
+from kineme._util.checks import check_type
 from kineme.errors import ParameterError
 from kineme.evaluation.truth import (
     TRANSITION,
@@ -35,6 +36,7 @@ from kineme.evaluation.truth import (
     Labelling,
     Truth,
     add_repetitions,
+    choose_comparison_rate,
     make_labelling,
     make_truth,
 )
@@ -114,6 +116,9 @@ class Comparison:
         default -1 is a cluster like all others.
     intervals : Spans, optional
         Both sides as intervals; by default the runs of these numbers.
+    segments : array_like of int, (frames,), optional
+        Cluster of each frame for scores of segments, if frames were removed: without parts of
+        removed segments that remain next to them. By default ``found``.
 
     Raises
     ------
@@ -135,13 +140,15 @@ class Comparison:
     mapping: Mapping[int, int] | None = None
     transitions: bool = False
     intervals: Spans | None = None
+    segments: ArrayLike = ()
     _results: dict[Callable[[Comparison], Any], Any] = field(
         default_factory=dict, init=False, repr=False
     )
 
     def __post_init__(self) -> None:
-        for name in ("truth", "found"):
-            object.__setattr__(self, name, np.asarray(getattr(self, name), np.int64))
+        segments = self.segments if np.size(self.segments) else self.found
+        for name, side in (("truth", self.truth), ("found", self.found), ("segments", segments)):
+            object.__setattr__(self, name, np.asarray(side, np.int64))
         if self.truth.shape != self.found.shape or self.truth.ndim != 1 or not self.truth.size:
             raise ParameterError(
                 f"truth and result need one label for each of the same frames, not shapes "
@@ -151,26 +158,39 @@ class Comparison:
     @classmethod
     def of(
         cls,
-        truth: Truth,
-        clusters: Labelling,
+        truth: Truth | Segmentation,
+        found: Segmentation | Labelling,
         *,
-        activities: Labelling | None = None,
-        primitives: Labelling | None = None,
         positions: ArrayLike | None = None,
         features: ArrayLike | None = None,
     ) -> Comparison:
-        """Compare a result with a truth that has uncertain borders, at the truth's frame rate.
+        """Compare a result with a truth that has uncertain borders.
 
         The parameters are those of `kineme.evaluation.evaluate`.
 
         Raises
         ------
         ParameterError
-            The labels have another length than the truth.
+            The result has another length than the truth, or one of them is something else.
         """
-        # Activities and primitives are the clusters by default.
+        advice = "kineme.read_segments(path) reads labels, kineme.segment(recording) gives a result"
+        check_type(truth, (Segmentation, Truth), "evaluate", advice)
+        check_type(found, (Segmentation, Labelling), "evaluate", advice)
+        if isinstance(found, Segmentation):
+            rows = found.activities
+            activities = primitives = clusters = make_labelling(rows, fps=found.fps)
+            if len(found.primitives):
+                primitives = make_labelling(found.primitives, fps=found.fps)
+            # If no activity has a cluster or label, compare primitives.
+            if not np.any((rows.cluster >= 0) | (rows.label != "")):
+                clusters = primitives
+        else:
+            activities = primitives = clusters = found
+        if isinstance(truth, Segmentation):
+            n_frames, fps = choose_comparison_rate(activities.frames, activities.fps)
+            truth = make_truth(add_repetitions(truth), n_frames=n_frames, fps=fps)
         groups, spans, units = (
-            (level or clusters).at(frames=truth.frames, fps=truth.fps)
+            level.at(frames=truth.frames, fps=truth.fps)
             for level in (clusters, activities, primitives)
         )
         return cls(
@@ -184,8 +204,12 @@ class Comparison:
     @cached_property
     def mapped(self) -> Ints:
         """Return the class of the cluster of each frame; below 0 if it has none."""
+        return self._map(self.found)
+
+    def _map(self, found: ArrayLike) -> Ints:
+        """Return the class of the cluster of each of these frames."""
         mapping = map_clusters([self]) if self.mapping is None else self.mapping
-        clusters, inverse = np.unique(self.found, return_inverse=True)
+        clusters, inverse = np.unique(found, return_inverse=True)
         # Clusters without a class get distinct numbers below -1, which means transition.
         classes = [mapping.get(int(c), -2 - i) for i, c in enumerate(clusters)]
         return np.asarray(classes, np.int64)[inverse]
@@ -248,16 +272,21 @@ class Comparison:
         )
         counted = np.zeros(actions.frames, np.bool_)
         counted[start:stop] = True
+        slack = actions.tolerance_s * actions.fps
         intervals = Spans(
             inner,
-            spans.activities.within(counted),
+            spans.activities.merged().within(counted, slack=slack),
             primitives=spans.primitives.within(counted),
             positions=None if spans.positions is None else np.asarray(spans.positions)[counted],
             features=None if spans.features is None else np.asarray(spans.features)[counted],
             repetitions=self.repetitions,
         )
         return replace(
-            self, truth=self.truth[counted], found=self.found[counted], intervals=intervals
+            self,
+            truth=self.truth[counted],
+            found=self.found[counted],
+            intervals=intervals,
+            segments=_select_frames(self.found, counted, slack),
         )
 
     @cached_property
@@ -268,7 +297,7 @@ class Comparison:
     @cached_property
     def mapped_runs(self) -> list[Run]:
         """Return the runs of frames whose clusters are mapped to one class."""
-        return find_runs(self.mapped)
+        return find_runs(self._map(self.segments))
 
     @cached_property
     def found_runs(self) -> list[Run]:
@@ -318,6 +347,8 @@ def compare(
     >>> bool((compared.mapped == compared.truth).all())
     True
     """
+    for table in (truth, found):
+        check_type(table, Segmentation, "compare", "kineme.read_segments(path) reads one")
     if truth.n_frames != found.n_frames:
         raise ParameterError(
             f"the labels have {truth.n_frames} frames, but the result has {found.n_frames}"
@@ -340,8 +371,8 @@ def compare(
     if not counted.any():
         raise ParameterError("the labels do not cover this recording: every frame is unlabelled")
     # Remove frames without a label from both sides.
-    compared = Comparison(labels[counted], clusters[counted], found.fps)
-    spans = compared.spans
+    segments = _select_frames(clusters, counted, LABELS_TOLERANCE_S * found.fps)
+    spans = Comparison(labels[counted], segments, found.fps).spans
     single = make_labelling(found.primitives or found.activities, fps=truth.fps)
     actions = make_truth(truth, n_frames=truth.n_frames, fps=truth.fps)
     intervals = replace(
@@ -350,7 +381,9 @@ def compare(
         primitives=single.within(counted) if len(found.primitives) else spans.primitives,
         repetitions=Repetitions(actions, single),
     )
-    return replace(compared, intervals=intervals)
+    return Comparison(
+        labels[counted], clusters[counted], found.fps, intervals=intervals, segments=segments
+    )
 
 
 def map_clusters(comparisons: Sequence[Comparison]) -> dict[int, int]:
@@ -400,6 +433,12 @@ def find_runs(labels: ArrayLike) -> list[Run]:
     # + 1: a difference at i is a change between frames i and i + 1.
     borders = [0, *(np.flatnonzero(np.diff(per_frame)) + 1).tolist(), len(per_frame)]
     return [Run(int(per_frame[a]), a, b) for a, b in pairwise(borders) if a < b]
+
+
+def _select_frames(found: Ints, counted: NDArray[np.bool_], slack: float) -> Ints:
+    """Return the numbers of counted frames, see `Labelling.within`."""
+    kept = Labelling.from_frames(found, fps=1).within(counted, slack=slack)
+    return kept.per_frame().astype(np.int64)
 
 
 def _expand_to_frames(segmentation: Segmentation, values: ArrayLike) -> Ints:

@@ -36,8 +36,6 @@ from kineme.evaluation.truth import TRANSITION, UNLABELLED, Labelling
 
 OVERLAPS = (10, 25, 50)
 """Intersection over union, in percent, from which a segment counts as found."""
-SHORT_TRANSITION_S = 1.0
-"""Length from which a found transition has two borders, s."""
 REPETITION_TOLERANCE_S = 0.5
 """Largest tolerance of borders between repetitions, s."""
 REPETITION_TOLERANCE = 0.25
@@ -327,12 +325,7 @@ def repetition_f1(compared: Comparison) -> Ratio | None:
 def find_border_frames(found: Labelling) -> Floats:
     """Return the frames at which the label changes; a short transition has only one border."""
     runs = found.merged()
-    is_short = [
-        label == TRANSITION and stop - start < SHORT_TRANSITION_S * found.fps
-        for label, start, stop in zip(runs.labels, runs.starts, runs.stops, strict=True)
-    ]
-    # A transition at an end of the recording has only one border anyway.
-    is_short[0] = is_short[-1] = False
+    is_short = runs.find_short_transitions()
     borders: list[float] = []
     for i in range(1, len(is_short)):
         if is_short[i]:
@@ -396,7 +389,7 @@ def cluster_ratio(compared: Comparison) -> Ratio:
     Ratio(part=2, total=2)
     """
     ignored = {UNLABELLED} if compared.transitions else set()
-    sides = ({*np.unique(side).tolist()} - ignored for side in (compared.found, compared.truth))
+    sides = ({*np.unique(side).tolist()} - ignored for side in (compared.segments, compared.truth))
     return Ratio(*map(len, sides))
 
 

@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, Protocol, get_args
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from kineme._util.checks import Registry, check_one_of
@@ -27,7 +26,7 @@ from kineme._util.files import atomic_write
 from kineme._version import __version__
 from kineme.errors import KinemeError, KinemeWarning, WriteError
 from kineme.evaluation.comparison import Comparison
-from kineme.evaluation.truth import Labelling, Truth, make_labelling
+from kineme.evaluation.truth import Labelling, Truth
 from kineme.labels.delimited import open_new_text, write_rows
 from kineme.segments.segmentation import Segmentation
 
@@ -168,40 +167,37 @@ def compute_scores(compared: Comparison) -> dict[str, float]:
 
 
 def evaluate(
-    truth: Truth,
-    clusters: Labelling,
+    truth: Truth | Segmentation,
+    found: Segmentation | Labelling,
     *,
-    activities: Labelling | None = None,
-    primitives: Labelling | None = None,
     positions: ArrayLike | None = None,
     features: ArrayLike | None = None,
 ) -> dict[str, float]:
-    """Compute all scores by name, in display order; 1 is best, except as noted.
+    """Compute all scores of a result by name, in display order; 1 is best, except as noted.
 
-    Scores of frames and clusters use ``clusters``, scores of borders ``activities``, and scores of
-    repetitions ``primitives``. Names that end in ``ratio`` are found over true numbers.
+    Scores of frames and clusters use the clusters of activities if any activity has a cluster or
+    label, and otherwise those of primitives. The cluster of a segment without one is its label, or
+    else unique. Scores of repetitions use the primitives. Frames before the first and after the
+    last action of the truth do not count. Names that end in ``ratio`` are found over true numbers.
     ``count_error`` (best at 0) and ``count_exact`` need counts in the truth, ``repetition_f1``
     needs repetitions.
 
     Parameters
     ----------
-    truth : Truth
-        The truth; its frame rate is that of the comparison.
-    clusters : Labelling
-        Clusters of frames.
-    activities : Labelling, optional
-        Spans of activities; by default ``clusters``.
-    primitives : Labelling, optional
-        Single repetitions; by default ``clusters``.
+    truth : Truth or Segmentation
+        A `Truth` is compared at its own frame rate, labels at 30 Hz, or at the result's rate if
+        that is lower.
+    found : Segmentation or Labelling
+        The result.
     positions : array_like, (frames, joints, 3), optional
-        Metres, y up, at the truth's frame rate.
+        Metres, y up, at the rate of comparison.
     features : array_like, (frames, dims), optional
-        Stacked, at the truth's frame rate.
+        Stacked, at the rate of comparison.
 
     Raises
     ------
     ParameterError
-        Labels or data have another length than the truth.
+        The result or data have another length than the truth, or the truth has no activity.
 
     Examples
     --------
@@ -211,63 +207,8 @@ def evaluate(
     >>> result["border_f1"], round(result["one_to_one"], 2)
     (1.0, 0.8)
     """
-    compared = Comparison.of(
-        truth,
-        clusters,
-        activities=activities,
-        primitives=primitives,
-        positions=positions,
-        features=features,
-    )
-    return compute_scores(compared)
-
-
-def evaluate_segmentation(
-    truth: Truth,
-    found: Segmentation,
-    *,
-    positions: ArrayLike | None = None,
-    features: ArrayLike | None = None,
-) -> dict[str, float]:
-    """Compute all scores of a segmentation; see `evaluate`.
-
-    Clusters are those of activities if any activity has a cluster or label, and otherwise those
-    of primitives. The cluster of a segment without one is its label, or else unique.
-
-    Examples
-    --------
-    >>> import kineme
-    >>> from kineme.datasets import bundled_truth
-    >>> from kineme.evaluation.truth import make_truth
-    >>> labels = kineme.read_segments(bundled_truth())
-    >>> truth = make_truth(labels, n_frames=labels.n_frames, fps=labels.fps)
-    >>> evaluate_segmentation(truth, labels)["one_to_one"]
-    1.0
-    """
-    return compute_scores(compare_with_truth(truth, found, positions=positions, features=features))
-
-
-def compare_with_truth(
-    truth: Truth,
-    found: Segmentation,
-    *,
-    positions: ArrayLike | None = None,
-    features: ArrayLike | None = None,
-) -> Comparison:
-    """Compare a segmentation with a truth; for its clusters see `evaluate_segmentation`."""
-    rows = found.activities
-    activities = make_labelling(rows, fps=found.fps)
-    primitives = make_labelling(found.primitives, fps=found.fps) if len(found.primitives) else None
-    # If no activity has a cluster or label, compare primitives.
-    grouped = bool(np.any((rows.cluster >= 0) | (rows.label != "")))
-    return Comparison.of(
-        truth,
-        activities if grouped or primitives is None else primitives,
-        activities=activities,
-        primitives=primitives,
-        positions=positions,
-        features=features,
-    )
+    compared = Comparison.of(truth, found, positions=positions, features=features)
+    return compute_scores(compared.without_silence())
 
 
 def get_value(result: Value) -> float:

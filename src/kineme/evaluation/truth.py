@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import floor
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Ints
 from kineme._util.checks import as_floats, as_texts
 from kineme.errors import ParameterError
+from kineme.recordings.arrays import find_spans
 from kineme.segments.editing.borders import replace_rows
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment, SegmentTable, choose_kind
@@ -37,6 +39,10 @@ UNLABELLED = -1
 """Number of `TRANSITION` if labels are numbers."""
 TOLERANCE_S = 0.25
 """Tolerance of a border beyond the span in which people put it, s."""
+FPS = 30.0
+"""Highest rate of comparison, Hz."""
+SHORT_TRANSITION_S = 1.0
+"""Length up to which a transition is one border, s; a longer one has two."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,10 +145,34 @@ class Labelling:
         values = [numbers.get(label, UNLABELLED) for label in self.labels]
         return np.repeat(np.array(values, np.int64), np.diff(self.borders))
 
-    def within(self, frames: NDArray[np.bool_]) -> Labelling:
-        """Remove the frames that are False; intervals without frames are dropped."""
-        # New position of each border: the number of kept frames before it.
-        return self._move(np.concatenate([[0], np.cumsum(frames)])[self.borders], self.fps)
+    def find_short_transitions(self) -> NDArray[np.bool_]:
+        """Return whether each interval is a transition of up to 1 s between two others."""
+        is_short = np.diff(self.borders) <= SHORT_TRANSITION_S * self.fps
+        is_short &= np.array([label == TRANSITION for label in self.labels])
+        # A transition at an end of the recording has only one border anyway.
+        is_short[[0, -1]] = False
+        return is_short
+
+    def within(self, frames: NDArray[np.bool_], *, slack: float = 0.0) -> Labelling:
+        """Remove the frames that are False; intervals without frames are dropped.
+
+        Parts of up to ``slack`` frames of intervals that are mostly removed are dropped, too: they
+        only show that borders are inexact.
+        """
+        # Number of kept frames before each frame.
+        kept = np.concatenate([[0], np.cumsum(frames)])
+        borders = self.borders.copy()
+        is_removed = 2 * np.diff(kept[borders]) < np.diff(borders)
+        for first, last in find_spans(frames).tolist():
+            # The intervals that reach into this span from before it, and from after it.
+            into = int(np.searchsorted(borders, first)) - 1
+            if into >= 0 and is_removed[into] and borders[into + 1] <= min(first + slack, last - 1):
+                borders[into + 1] = first
+            back = int(np.searchsorted(borders, last)) - 1
+            if is_removed[back] and borders[back] >= max(last - slack, first + 1):
+                borders[back] = last
+        # The new position of each border.
+        return self._move(kept[borders], self.fps)
 
     def merged(self) -> Labelling:
         """Merge neighbours with equal labels."""
@@ -273,22 +303,19 @@ class Truth:
         counts: Sequence[int | None] = (),
         tolerance_s: float = TOLERANCE_S,
     ) -> Truth:
-        """Create a truth: transitions between two actions become uncertain borders.
+        """Create a truth: short transitions between two actions become uncertain borders.
 
-        The middle of a transition is the mean. A transition at the start or the end of
-        the recording stays an action. There is one count for each interval.
+        The middle of a transition of up to 1 s is the mean. A longer one, or one at the start or
+        the end of the recording, stays an action. There is one count for each interval.
         """
         if len(counts) not in (0, len(labelling.labels)):
             raise ParameterError(
                 f"counts has {len(counts)} entries for {len(labelling.labels)} intervals: give one "
                 "for each, None if unknown"
             )
-        # Transitions between two actions are borders; at the ends they stay rows.
-        middle = [
-            0 < i < len(labelling.labels) - 1 and label == TRANSITION
-            for i, label in enumerate(labelling.labels)
-        ]
-        rows = [i for i, between in enumerate(middle) if not between]
+        # Short transitions between two actions are borders; at the ends they stay rows.
+        middle = labelling.find_short_transitions()
+        rows = np.flatnonzero(~middle).tolist()
         # A border's span is from the end of one action to the start of the next.
         earliest = labelling.stops[rows[:-1]]
         latest = labelling.starts[rows[1:]]
@@ -409,6 +436,13 @@ def make_truth(truth: Segmentation, *, n_frames: int, fps: float) -> Truth:
         return actions
     repetitions = make_labelling(truth.primitives, fps=truth.fps).at(frames=n_frames, fps=fps)
     return replace(actions, repetitions=repetitions)
+
+
+def choose_comparison_rate(n_frames: int, fps: float) -> tuple[int, float]:
+    """Return number of frames and rate of comparison of a result: 30 Hz, or its own if lower."""
+    rate = min(FPS, fps)
+    # Number of frames up to the last one; 1e-9 guards against rounding.
+    return floor((n_frames - 1) * rate / fps + 1e-9) + 1, rate
 
 
 def make_labelling(rows: SegmentTable, *, fps: float) -> Labelling:

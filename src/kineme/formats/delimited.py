@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from kineme._util.checks import make_unique
 from kineme.formats.files import FileContent, parse_numbers
+from kineme.recordings.cells import COMMAS, has_decimal_comma, replace_decimal_comma
 from kineme.recordings.column_names import EMPTY, describe_alternation, is_owner
 from kineme.recordings.times import (
     append_unit,
@@ -36,12 +37,7 @@ from kineme.recordings.times import (
 NAMELESS = "(no name)"
 """Name given to columns without one."""
 
-COMMAS = "numbers have a decimal comma"
-"""Note added if numbers have a decimal comma."""
-
 _ROWS_SNIFFED = 50  # rows searched for decimal commas
-_NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*")
-_COMMA = re.compile(r"\s*[+-]?\d*,\d+(?:[eE][+-]?\d+)?\s*")
 _FORMULA = re.compile(r"'*[=+\-@]")
 """Start of a text that spreadsheets would run as a formula, or that is escaped with ``'``."""
 
@@ -83,10 +79,7 @@ class DelimitedText:
         if self.separator == ",":
             return False
         rows = islice(filter(str.strip, self.rows), _ROWS_SNIFFED)
-        cells = [cell for row in rows for cell in split_cells(row, self.separator)]
-        # A single number with a point shows that commas are no decimal commas.
-        has_point = any("." in cell for cell in cells if is_number(cell))
-        return not has_point and any(map(_COMMA.fullmatch, cells))
+        return has_decimal_comma(cell for row in rows for cell in split_cells(row, self.separator))
 
     @cached_property
     def dates(self) -> list[int]:
@@ -211,16 +204,6 @@ def find_separator(line: str) -> str:
 def split_cells(line: str, separator: str) -> list[str]:
     """Return the cells of a line, without surrounding blanks and quotes."""
     return [cell.strip().strip('"').strip() for cell in line.split(separator)]
-
-
-def is_number(cell: str) -> bool:
-    """Return whether a cell is a number, with a decimal point or comma."""
-    return bool(_NUMBER.fullmatch(cell))
-
-
-def replace_decimal_comma(cell: str) -> str:
-    """Return a number with a point instead of a decimal comma, and other text unchanged."""
-    return cell.replace(",", ".") if _COMMA.fullmatch(cell) else cell
 
 
 def as_text(text: str) -> str:

@@ -33,13 +33,13 @@ from kineme.formats.delimited import (
     find_separator,
     from_text,
     is_finite,
-    is_number,
     make_unique_names,
     split_cells,
 )
 from kineme.formats.files import FileContent
 from kineme.recordings import Note
 from kineme.recordings.arrays import list_spans, mark_spans
+from kineme.recordings.cells import is_number
 from kineme.recordings.column_names import EMPTY
 from kineme.recordings.regular import Timing, place_rows
 from kineme.recordings.times import (

@@ -30,7 +30,7 @@ from kineme.formats.channels.reading import (
     to_signals,
 )
 from kineme.formats.channels.writing import write_signals
-from kineme.formats.delimited import DelimitedText, as_text, is_number, make_unique_names
+from kineme.formats.delimited import DelimitedText, as_text, make_unique_names
 from kineme.formats.dialects import find_table, hold_channels, recognise_table
 from kineme.formats.files import FileContent, clean_names, format_point_name, save
 from kineme.formats.keypoints.poses import holds_poses, parse_poses, poses_to_motion
@@ -40,6 +40,7 @@ from kineme.formats.plausibility import mark_gaps
 from kineme.formats.points import columns_to_motion, is_used
 from kineme.formats.registry import Format
 from kineme.recordings import Motion, Signals
+from kineme.recordings.cells import is_number
 from kineme.recordings.column_names import EMPTY
 from kineme.recordings.times import NO_TIMES, RATE, is_date, is_timing
 

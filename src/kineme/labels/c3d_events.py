@@ -4,13 +4,16 @@ An event is a point in time, such as ``Right Foot Strike``; a label is a span. A
 those with given names, cut the recording. A span is named after the event at its start; the part
 before the first event has no name. The last of several events in one frame counts.
 
-`kineme.read_segments` uses all events. `read_events` with ``names=["Right Foot Strike"]`` makes
-each gait cycle of the right leg one span. `write_events` adds events to a copy of a file.
+`kineme.read_segments` uses all events, and the last one lasts to the end. `read_events` with
+``names=["Right Foot Strike"]`` makes each gait cycle of the right leg one span; what follows the
+last strike is no cycle, hence a transition. `write_events` adds events to a copy of a file.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+import math
+from collections.abc import Collection, Iterable, Sequence
+from itertools import pairwise
 from os import PathLike
 from pathlib import Path
 
@@ -37,15 +40,18 @@ def read_events(path: str | PathLike[str], *, names: Collection[str] | None = No
     path : path-like
         A C3D file.
     names : collection of str, optional
-        Names of the events that cut; all by default.
+        Names of the events that cut, in upper or lower case; all by default.
 
     Returns
     -------
     Segmentation
-        With rate and length of the recording; the part before the first event is a transition.
+        With rate and length of the recording. The part before the first event is a transition, and
+        with ``names`` also the part after the last.
 
     Raises
     ------
+    ParameterError
+        ``names`` is not a list of texts.
     ReadError
         Not a C3D file, no events, or none with these names.
 
@@ -56,7 +62,8 @@ def read_events(path: str | PathLike[str], *, names: Collection[str] | None = No
     >>> from kineme.labels.c3d_events import read_events
     >>> cycles = read_events("gait.c3d", names=["Right Foot Strike"])  # doctest: +SKIP
     """
-    return as_segmentation(read(Path(path), names), Path(path), FORMAT.name)[0]
+    texts = None if names is None else as_texts(names, "names of events")
+    return as_segmentation(read(Path(path), texts), Path(path), FORMAT.name)[0]
 
 
 def write_events(
@@ -92,6 +99,8 @@ def write_events(
     ------
     ReadError
         ``source`` is not a C3D file, or has no frame rate.
+    ParameterError
+        A time is outside the recording, or the numbers of times and names differ.
     WriteError
         ``path`` is ``source``, cannot be written, or there are more than 255 events.
 
@@ -127,26 +136,37 @@ def write_events(
     with translate_read_errors(source):
         content = load(source)
         file = parse_c3d(content)
-        present = [
-            (at, " ".join(name.lower().split()))
-            for (at, name), whose in zip(file.events, file.event_subjects, strict=True)
-            if not (subject and whose) or subject == whose
-        ]
-        events = [C3DEvent(at, *_split_side(name), subject or "")
-                  for at, name in zip(seconds, texts, strict=True)]  # fmt: skip
-        added = [
-            each
-            for each in events
-            if not any(
-                name == f"{each.side} {each.label}".strip().lower()
-                and abs(at - each.seconds) < SAME_S
-                for at, name in present
+    length = len(file.points) / file.rate if file.rate else math.inf
+    for at in seconds:
+        if not 0 <= at <= length:
+            raise ParameterError(
+                f"there is no time {at:g} s in the recording, which lasts {length:g} s"
             )
-        ]
+    present = [
+        (at, _simplify(name))
+        for (at, name), whose in zip(file.events, file.event_subjects, strict=True)
+        if not (subject and whose) or subject == whose
+    ]
+    events = [C3DEvent(at, *_split_side(name), subject or "")
+              for at, name in zip(seconds, texts, strict=True)]  # fmt: skip
+    added = [
+        each
+        for each in events
+        if not any(
+            name == _simplify(f"{each.side} {each.label}") and abs(at - each.seconds) < SAME_S
+            for at, name in present
+        )
+    ]
+    with translate_read_errors(source):
         data = add_events(content, added)
     with atomic_write(target) as draft:
         draft.write_bytes(data)
     return len(added)
+
+
+def _simplify(name: str) -> str:
+    """Return a name in lower case with single blanks, for comparisons."""
+    return " ".join(name.lower().split())
 
 
 def _split_side(name: str) -> tuple[str, str]:
@@ -163,7 +183,7 @@ def require_c3d(source: str | PathLike[str]) -> None:
         raise ReadError(source, "is not a C3D file: events can only be written to a copy of a C3D")
 
 
-def read(path: Path, names: Collection[str] | None = None) -> Labels:
+def read(path: Path, names: Sequence[str] | None = None) -> Labels:
     """Read the spans between events of a C3D file, in seconds from its first frame."""
     from kineme.formats.files import load
     from kineme.formats.markers.c3d_file import parse_c3d
@@ -175,17 +195,22 @@ def read(path: Path, names: Collection[str] | None = None) -> Labels:
     inside = [(at, name) for at, name in file.events if 0 <= at < length]
     if not inside:
         raise ReadError(path, "has no events")
-    present = sorted({name for _, name in inside})
+    present = {_simplify(name): name for _, name in sorted(inside)}
     for name in names or ():
-        if name not in present:
-            raise ReadError(path, f"has no event {name!r}; there are {', '.join(present)}")
+        if _simplify(name) not in present:
+            listed = ", ".join(sorted(present.values()))
+            raise ReadError(path, f"has no event {name!r}; there are {listed}")
+    chosen = {*map(_simplify, names)} if names else present.keys()
     # The last of several events in one frame counts.
-    frames = {round(at * file.rate): name for at, name in inside if not names or name in names}
-    starts = sorted(frames)
-    stops = [*starts[1:], len(file.points)]
+    frames = {round(at * file.rate): name for at, name in inside if _simplify(name) in chosen}
+    borders = sorted(frames)
+    if not names:
+        borders.append(len(file.points))
+    elif len(borders) < 2:
+        raise ReadError(path, f"has one event {names[0]!r}, but a span needs two")
     spans = [
         Span(start / file.rate, stop / file.rate, frames[start])
-        for start, stop in zip(starts, stops, strict=True)
+        for start, stop in pairwise(borders)
         if start < stop
     ]
     return Labels(spans, "seconds", file.rate, length)

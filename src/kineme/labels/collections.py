@@ -1,9 +1,9 @@
 """Read labels of many recordings from one table, or from a folder with a file for each.
 
-A table has the columns of `kineme.labels.csv_table` and ``recording`` (or ``file``);
-recordings are named with or without suffix. In a folder, the labels of ``walk.bvh`` are in a file
-called ``walk`` in any label format (``walk.eaf``, ``walk.labels.csv``). `read_labels` returns those
-of a single recording.
+A table has the columns of `kineme.labels.csv_table` and ``recording`` (or ``file``), or those of
+BORIS with ``Observation id``; recordings are named with or without suffix. In a folder, the labels
+of ``walk.bvh`` are in a file called ``walk`` in any label format (``walk.eaf``,
+``walk.labels.csv``). `read_labels` returns those of a single recording.
 
 A frame has the label whose span ``[start, stop)`` contains its time. Labels of public datasets
 sometimes overlap, run backwards or exceed the recording. If two overlap, the later one in the file
@@ -24,7 +24,7 @@ from typing import NamedTuple
 from kineme._util.checks import format_count
 from kineme._util.files import translate_read_errors
 from kineme.errors import ReadError
-from kineme.labels import csv_table
+from kineme.labels import csv_table, event_tables
 from kineme.labels.registry import find_read_format, holds_labels, read_content, read_segments
 from kineme.labels.spans import (
     TOO_FAR,
@@ -32,6 +32,7 @@ from kineme.labels.spans import (
     Span,
     as_segmentation,
     check_extent,
+    check_frames,
     convert_clock_times,
     note_lost_labels,
 )
@@ -57,15 +58,17 @@ class LabelSource:
 
     path: Path
     labels: Labels | None = None
+    format: str = csv_table.FORMAT.name
 
     def of(self, *, n_frames: int, fps: float, clock: Clock | None = None) -> Segmentation:
         """Return the labels as a segmentation; frames without a label are transitions."""
         content: Labels | Segmentation | None = self.labels
-        name = csv_table.FORMAT.name
+        name = self.format
         if content is None:
             label_format, content = read_content(self.path)
             name = label_format.name
         if isinstance(content, Labels):
+            check_frames(content, self.path, n_frames)
             timed = convert_clock_times(content, clock, length_s=n_frames / fps)
             labels = convert_to_frames(timed, fps, n_frames=n_frames)
             content, _ = as_segmentation(labels, self.path, name, fps=fps, n_frames=n_frames)
@@ -73,21 +76,21 @@ class LabelSource:
 
 
 def find_labels(
-    recordings: Iterable[Path], labels: str | PathLike[str]
+    recordings: Iterable[str | PathLike[str]], labels: str | PathLike[str]
 ) -> Mapping[Path, LabelSource]:
     """Return the source of labels for each recording that has some.
 
-    ``labels`` is a table with a column ``recording``, or a folder with a file for each. Raise
-    ReadError if no recording has labels.
+    ``labels`` is a table of several recordings, or a folder with a file for each. Raise ReadError
+    if no recording has labels.
     """
     return find_labels_and_unmatched(recordings, labels)[0]
 
 
 def find_labels_and_unmatched(
-    recordings: Iterable[Path], labels: str | PathLike[str]
+    recordings: Iterable[str | PathLike[str]], labels: str | PathLike[str]
 ) -> tuple[Mapping[Path, LabelSource], list[str]]:
     """Return the result of `find_labels`, and the names in a table that match no recording."""
-    files, folder = list(recordings), Path(labels)
+    files, folder = [*map(Path, recordings)], Path(labels)
     sources = _find_in_folder(folder) if folder.is_dir() else _read_table(folder)
     present = {name for path in files for name in (path.name, path.stem)}
     are_unique = len({path.name for path in files}) == len(files)
@@ -114,7 +117,7 @@ def find_labels_and_unmatched(
 
 
 def read_labels(
-    recording: Path,
+    recording: str | PathLike[str],
     labels: str | PathLike[str],
     *,
     n_frames: int,
@@ -122,10 +125,9 @@ def read_labels(
     clock: Clock | None = None,
 ) -> Segmentation:
     """Read the labels of one recording, also from a table of several recordings."""
-    path = Path(labels)
-    if find_read_format(path) is not csv_table.FORMAT or not csv_table.lists_recordings(path):
+    if not _lists_recordings(Path(labels)):
         return read_segments(labels, fps=fps, n_frames=n_frames, clock=clock)
-    (source,) = find_labels([recording], labels).values()
+    (source,) = find_labels([Path(recording)], labels).values()
     return source.of(n_frames=n_frames, fps=fps, clock=clock)
 
 
@@ -216,14 +218,26 @@ class _SpanUnion:
         return [(begin, end) for begin, end in free if begin < end]
 
 
-def _read_table(path: Path) -> dict[str, LabelSource]:
+def _lists_recordings(path: Path) -> bool:
+    """Return whether a file is a table of several recordings, or names that of its labels."""
+    label_format = find_read_format(path)
+    if label_format is not event_tables.BORIS:
+        return label_format is csv_table.FORMAT and csv_table.lists_recordings(path)
     with translate_read_errors(path):
-        tables = csv_table.read_intervals(path)
+        return len(event_tables.read_observations(path)) > 1
+
+
+def _read_table(path: Path) -> dict[str, LabelSource]:
+    is_boris = event_tables.is_boris(path)
+    name = (event_tables.BORIS if is_boris else csv_table.FORMAT).name
+    with translate_read_errors(path):
+        read = event_tables.read_observations if is_boris else csv_table.read_intervals
+        tables = read(path)
     if "" in tables:
         raise ReadError(
             path, "has a label without a recording: name it in a column 'recording' of each row"
         )
-    return {name: LabelSource(path, labels) for name, labels in tables.items()}
+    return {recording: LabelSource(path, labels, name) for recording, labels in tables.items()}
 
 
 def _find_in_folder(folder: Path) -> dict[str, LabelSource]:

@@ -28,7 +28,7 @@ from typing import Any, Literal
 
 from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ReadError
-from kineme.formats.delimited import find_separator, from_text, replace_decimal_comma
+from kineme.formats.delimited import find_separator, from_text
 from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
@@ -42,7 +42,8 @@ from kineme.labels.delimited import (
 )
 from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span
+from kineme.labels.spans import Labels, Span, require_one_recording
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.recordings.times import is_date, parse_date
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation
@@ -57,10 +58,10 @@ SPANS = (
 )
 """Pairs of columns that give the span of a label, preferred ones first."""
 ALIASES = {
-    "start": ("start", "begin", "onset", "start_time", "begin_time"),
-    "stop": ("stop", "end", "offset", "stop_time", "end_time"),
+    "start": ("start", "begin", "onset", "start_time", "begin_time", "t_start", "from"),
+    "stop": ("stop", "end", "offset", "stop_time", "end_time", "t_stop", "t_end", "to"),
     "duration": ("duration",),
-    "label": ("label", "name", "activity"),
+    "label": ("label", "name", "activity", "trial_type"),
     "recording": ("recording", "file", "filename", "file_name"),  # a trial may be a number
 }
 """Usual names of columns, preferred ones first, see `rename_columns`."""
@@ -90,9 +91,16 @@ def read(path: Path) -> Segmentation | Labels:
     with path.open(encoding="utf-8-sig", newline="") as file:
         first = file.readline()
         comma = find_separator(first)
+        names = set(next(csv.reader([first], delimiter=comma), []))
+        if {"time_s", "event"} <= names:
+            raise ReadError(
+                path,
+                "is a table of events, which have no duration: kineme events --labels FILE writes "
+                "the spans between them",
+            )
         # Tables of intervals have no such pair of columns.
-        if not {"level", "start_frame"} <= set(next(csv.reader([first], delimiter=comma), [])):
-            return _read_intervals(path)
+        if not {"level", "start_frame"} <= names:
+            return require_one_recording(read_intervals(path), path)
         file.seek(0)
         rows = csv.DictReader(file, strict=True, delimiter=comma)
         columns = _list_columns(rows, path, commas=comma != ",")
@@ -207,19 +215,6 @@ def _parse_time(cell: str, name: str, path: Path, line: int) -> float:
         return parse_date(cell.strip())
     value = parse_number(cell, name, path, line)
     return value / 1000 if name.endswith("_ms") else value
-
-
-def _read_intervals(path: Path) -> Labels:
-    """Read a table of intervals of one recording."""
-    found = read_intervals(path)
-    if len(found) > 1:
-        names = ", ".join(found)
-        raise ReadError(
-            path,
-            f"has labels of {len(found)} recordings ({names:.60}): keep one, or evaluate the "
-            "folder of them: kineme evaluate FOLDER --labels TABLE",
-        )
-    return next(iter(found.values()), Labels([]))
 
 
 def _parse_cluster(row: dict[str, str]) -> int:

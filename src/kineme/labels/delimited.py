@@ -20,7 +20,8 @@ from typing import Any, TextIO
 
 from kineme._util.files import atomic_write, read_head, read_tail
 from kineme.errors import ReadError
-from kineme.formats.delimited import as_text, find_separator, from_text, replace_decimal_comma
+from kineme.formats.delimited import as_text, find_separator, from_text
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level
 

@@ -15,8 +15,8 @@ are not stored.
 
 Reads tabular events of old and new versions (header line below a preamble or on top; START and STOP
 in ``Behavior type`` or ``Status``) and aggregated events (``Start (s)``, ``Stop (s)``). POINT
-events have no duration and are left out with a warning. Rows of several subjects or observations
-must not overlap.
+events have no duration and are left out with a warning. Rows of several subjects must not overlap.
+An observation is a recording, see `kineme.labels.collections`.
 
 Sources: https://bids-specification.readthedocs.io, "Events"; BORIS user guide, "Export events".
 """
@@ -50,7 +50,7 @@ from kineme.labels.delimited import (
     write_rows,
 )
 from kineme.labels.registry import LabelFormat
-from kineme.labels.spans import Labels, Span, format_text
+from kineme.labels.spans import Labels, Span, format_text, require_one_recording
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
@@ -249,13 +249,23 @@ def write_boris(rows: Sequence[Segment], segmentation: Segmentation, path: Path)
 
 
 def read_boris(path: Path) -> Labels:
-    """Read the state events of a BORIS table."""
+    """Read the state events of the only observation in a BORIS table."""
+    return require_one_recording(read_observations(path), path)
+
+
+def read_observations(path: Path) -> dict[str, Labels]:
+    """Read the state events of a BORIS table by ``Observation id``, or by "" without one."""
     headers = [("Time", "Behavior"), ("Start (s)", "Stop (s)", "Behavior")]
+    rows: dict[str, list[tuple[int, Cells]]] = {}
     with path.open(encoding="utf-8-sig", newline="") as file:
-        rows = list(read_rows(file, path, headers))
-    spans = list(
-        _pair_states(rows, path) if rows and "Time" in rows[0][1] else _read_aggregated(rows, path)
-    )
+        for line, cells in read_rows(file, path, headers):
+            rows.setdefault(cells.get("Observation id", ""), []).append((line, cells))
+    return {name: _read_states(some, path) for name, some in rows.items()}
+
+
+def _read_states(rows: list[tuple[int, Cells]], path: Path) -> Labels:
+    """Return the state events of an observation."""
+    spans = list(_pair_states(rows, path) if "Time" in rows[0][1] else _read_aggregated(rows, path))
     points = Counter(cells["Behavior"] for _, cells in rows if _parse_kind(cells) == "POINT")
     listed = ", ".join(f"{name} ({count})" for name, count in points.items())
     notes = (f"point events have no duration and are left out: {listed:.200}",) if points else ()
@@ -269,8 +279,8 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
         kind = _parse_kind(cells)
         if kind == "POINT":
             continue
-        same = ("Observation id", "Subject", "Behavior", "Behavioral category")
-        # Several subjects and observations may have open states.
+        same = ("Subject", "Behavior", "Behavioral category")
+        # Several subjects may have open states.
         key = tuple(cells.get(name, "") for name in same)
         time = parse_number(cells["Time"], "Time", path, line)
         if kind == "START" and key not in starts:
@@ -288,7 +298,7 @@ def _pair_states(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
             )
             raise ReadError(path, reason, line=line)
     if starts:
-        raise ReadError(path, f"{next(iter(starts))[2]!r:.60} has a START without a STOP")
+        raise ReadError(path, f"{next(iter(starts))[1]!r:.60} has a START without a STOP")
 
 
 def _read_aggregated(rows: list[tuple[int, Cells]], path: Path) -> Iterator[Span]:
@@ -309,12 +319,17 @@ def _parse_fact(rows: list[tuple[int, Cells]], names: Sequence[str]) -> float | 
     """Return a fact about the recording from the first row, if it is a positive number."""
     for name in names:
         try:
-            value = float(rows[0][1][name]) if rows else 0.0
+            value = float(rows[0][1][name])
         except (KeyError, ValueError):
             continue
         if 0 < value < 1e15:
             return value
     return None
+
+
+def is_boris(path: Path) -> bool:
+    """Return whether a file begins like a table of BORIS."""
+    return is_boris_table(read_first_bytes(path).decode(errors="replace"))
 
 
 BORIS = LabelFormat(
@@ -324,5 +339,5 @@ BORIS = LabelFormat(
     holds="levels",
     read=read_boris,
     write=write_boris,
-    recognises=lambda path: is_boris_table(read_first_bytes(path).decode(errors="replace")),
+    recognises=is_boris,
 )

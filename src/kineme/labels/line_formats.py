@@ -13,7 +13,8 @@ CVPR 2019; https://github.com/yabufarha/ms-tcn).
 
 New classes are appended to the mapping; existing ones keep their numbers. Blanks in labels become
 ``_``, since readers split the mapping at blanks. Successive frames of one class become one segment;
-``transition``, ``background`` and ``SIL`` are transitions. Reading needs no mapping.
+``transition``, ``background`` and ``SIL`` are transitions. Reading needs no mapping. Numbers,
+as NumPy saves an array of states, are labels, too, but whole ones below 0 are transitions.
 
 *Clips*: a CSV of ``file``, ``start``, ``stop`` (frames, exclusive) and ``mirror`` like the list in
 orangeduck's ``generate_database.py``, with seconds and ``label`` added. Writing stores one level,
@@ -24,14 +25,14 @@ https://github.com/orangeduck/Motion-Matching
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from contextlib import suppress
-from itertools import groupby
+from itertools import groupby, pairwise
 from pathlib import Path
 
 from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
-from kineme.formats.delimited import replace_decimal_comma
 from kineme.labels.csv_table import choose_roundest_rate
 from kineme.labels.delimited import (
     format_source,
@@ -45,11 +46,13 @@ from kineme.labels.delimited import (
 )
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, format_text
+from kineme.recordings.cells import is_number, replace_decimal_comma
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Segment
 
 FOLDER = "groundTruth"
 NOTHING = ("background", "SIL")
+_STATE = re.compile(r"-?\d\.\d{18}e\+\d\d")  # in the format of np.savetxt
 NEEDED = ("file", "start", "stop")
 
 
@@ -128,9 +131,16 @@ def _read_ms_tcn(path: Path) -> Labels:
             if not text:
                 raise ReadError(path, "has an empty line: every frame needs a label", line=at + 1)
             stop = at + sum(1 for _ in run)
-            spans.append(Span(at, stop, "transition" if text in NOTHING else text))
+            spans.append(Span(at, stop, _name_class(text)))
             at = stop
     return Labels(spans, "frames", length=at)
+
+
+def _name_class(text: str) -> str:
+    """Return the text of a segment for the label of its frames."""
+    if _STATE.fullmatch(text):
+        text = f"{float(text):.0f}"
+    return "transition" if text in NOTHING or re.fullmatch(r"-[1-9]\d*", text) else text
 
 
 def _list_classes(mapping: Path) -> dict[str, int]:
@@ -153,9 +163,14 @@ def _list_classes(mapping: Path) -> dict[str, int]:
 
 
 def _is_ms_tcn(path: Path) -> bool:
-    """Return whether the first line is a text and not a row of a table."""
-    first = read_first_bytes(path).decode(errors="replace").partition("\n")[0].strip()
-    return bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+."
+    """Return whether the first line is a text and not a row of a table, or lines are states."""
+    lines = read_first_bytes(path).decode(errors="replace").split("\n")[:-1]
+    first = lines[0].strip() if lines else ""
+    if bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+.":
+        return True
+    # Unlike samples of a channel or lists of change points, states mostly last for many frames.
+    pairs = [*pairwise(map(str.strip, lines))]
+    return all(map(is_number, lines)) and 2 * sum(a == b for a, b in pairs) > len(pairs)
 
 
 MS_TCN = LabelFormat(

@@ -22,7 +22,7 @@ import math
 import re
 import unicodedata
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import isclose
@@ -40,6 +40,8 @@ from kineme.recordings.times import Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, choose_kind
 
+SAME_LENGTH = 0.01
+"""Relative difference of numbers of labels and frames that count as equal."""
 TOO_FAR = 2**53
 """Frame number from which on a float cannot represent every integer."""
 NAMED = 4
@@ -148,6 +150,7 @@ def as_segmentation(
         )
     if not 0 < rate < math.inf:
         raise ReadError(path, f"the frame rate must be a positive number, not {rate}")
+    check_frames(labels, path, n_frames)
     per_unit = rate if labels.unit == "seconds" else 1.0
     rows = [_make_row(span, per_unit, path) for span in labels.spans]
     last = max(row.stop_frame for row in rows)
@@ -195,6 +198,31 @@ def as_segmentation(
     except ParameterError as error:
         raise ReadError(path, str(error)) from error
     return segmentation, tuple(warnings)
+
+
+def require_one_recording(found: Mapping[str, Labels], path: Path) -> Labels:
+    """Return the labels of the only recording of a table; raise ReadError if it has several."""
+    if len(found) > 1:
+        names = ", ".join(found)
+        raise ReadError(
+            path,
+            f"has labels of {len(found)} recordings ({names:.60}): keep one, or evaluate the "
+            "folder of them: kineme evaluate FOLDER --labels TABLE",
+        )
+    return next(iter(found.values()), Labels([]))
+
+
+def check_frames(labels: Labels, path: Path, n_frames: int | None) -> None:
+    """Raise ReadError if the frames of labels are not those of the recording, as at another rate.
+
+    Public data sets have a few labels more or fewer than frames.
+    """
+    if labels.unit != "frames" or not labels.length or not n_frames:
+        return
+    if not isclose(labels.length, n_frames, rel_tol=SAME_LENGTH, abs_tol=2):
+        raise ReadError(
+            path, f"has labels of {labels.length:g} frames, but the recording has {n_frames}"
+        )
 
 
 def check_extent(

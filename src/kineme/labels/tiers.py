@@ -8,16 +8,17 @@ since a millisecond would hold several frames.
 The linked medium is the video in ``provenance["video"]``, with the recording's start in it, or else
 a video with the recording's name beside it.
 
-Reading uses the tiers ``activity`` and ``primitive``, or else the only tier with annotations.
-Annotations that depend on others have no times and are ignored.
+Reading uses the tiers ``activity`` and ``primitive`` in upper or lower case. If there is no tier of
+activities, the only other tier with annotations holds them. Annotations that depend on others have
+no times and are ignored.
 
 pympi-ling reads and writes these files, too, but does not guard against XML entities; tests compare
 both. Files with a document type are rejected, which prevents entity expansion.
 
 ELAN's tab-delimited text (`ELAN_TABLE`) is read, too. Without a header, a line holds tier,
 participant, begin, end and optionally duration, each in one or more time formats, and the text
-last. With a header, columns are ``Begin Time - …`` and ``End Time - …``, and either ``Tier`` or one
-column for each tier. Tiers are chosen as in ``.eaf``.
+last. With a header, columns are ``Begin Time - …`` and ``End Time - …``, and either ``Tier``, one
+column for each tier, or only ``Annotation`` for activities. Tiers are chosen as in ``.eaf``.
 
 *Praat* (``.TextGrid``): one interval tier per level, in seconds, with the length of the recording,
 written in Praat's long text format as UTF-8. Intervals of a tier cover the recording; empty ones
@@ -42,10 +43,12 @@ from xml.etree import ElementTree as ET
 
 from kineme._util.files import NoEntities, atomic_write, find_video
 from kineme.errors import ReadError, WriteError
+from kineme.formats.delimited import find_separator
 from kineme.formats.listing import is_elan_table
 from kineme.labels.delimited import open_new_text, parse_number, read_first_bytes
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, format_text
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
 
@@ -154,16 +157,24 @@ def _add_medium(header: ET.Element, segmentation: Segmentation) -> None:
 
 
 def choose_tiers(names: Sequence[str], path: Path) -> dict[str, Level]:
-    """Return the tiers to read and their levels: those named after a level, or the only one."""
-    found: dict[str, Level] = {level: level for level in get_args(Level) if level in names}
-    if found or not names:
+    """Return the tiers to read and their levels: those named after a level, in any case.
+
+    Without a tier of activities, these are the only other tier.
+    """
+    levels: tuple[Level, ...] = get_args(Level)
+    # Exact names come last, so they take precedence.
+    ordered = sorted(names, key=lambda name: name in levels)
+    tiers = {name.casefold(): name for name in ordered if name.casefold() in levels}
+    found = {tiers[level]: level for level in levels if level in tiers}
+    others = [name for name in names if name.casefold() not in levels]
+    if "activity" in tiers or not others:
         return found
-    if len(names) > 1:
+    if len(others) > 1:
         raise ReadError(
             path,
             f"has {len(names)} tiers ({', '.join(names):.100}): keep one, or name one 'activity'",
         )
-    return {names[0]: "activity"}
+    return {others[0]: "activity", **found}
 
 
 class _Builder(NoEntities, ET.TreeBuilder):
@@ -227,10 +238,16 @@ ELAN = LabelFormat(
 def read_table(path: Path) -> Labels:
     """Read the annotations of ELAN's tab-delimited text."""
     with path.open(encoding="utf-8-sig", newline="") as file:
-        rows = list(csv.reader(file, delimiter="\t", quoting=csv.QUOTE_NONE))
-    lines = [
-        (line, row) for line, row in enumerate(rows, 1) if any(row) and not row[0].startswith('"#')
-    ]
+        texts = ["" if line.startswith('"#') else line for line in file]
+    header = next(filter(str.strip, texts), "")
+    # Spreadsheets save the table with commas or semicolons, and quotes around cells with them.
+    separator = "\t" if "\t" in header else find_separator(header)
+    rows = csv.reader(
+        texts,
+        delimiter=separator,
+        quoting=csv.QUOTE_NONE if separator == "\t" else csv.QUOTE_MINIMAL,
+    )
+    lines = [(line, row) for line, row in enumerate(rows, 1) if any(row)]
     if not lines:
         return Labels([])
     is_named = any(map(_TIMES.fullmatch, lines[0][1]))
@@ -262,8 +279,8 @@ def _read_named_columns(rows: Sequence[tuple[int, list[str]]], path: Path) -> It
             _parse_table_seconds(row[times[end][0]], path, line, is_ms=times[end][1])
             for end in ("begin", "end")
         )
-        if tier is not None:
-            yield row[tier], start, stop, row[text]
+        if tier is not None or not tiers:
+            yield "activity" if tier is None else row[tier], start, stop, row[text]
             continue
         for i in tiers:
             if row[i]:
@@ -295,7 +312,8 @@ def _read_unnamed_columns(
 def _parse_table_seconds(text: str, path: Path, line: int, *, is_ms: bool) -> float:
     if match := _CLOCK.fullmatch(text.strip()):
         return 3600 * int(match[1]) + 60 * int(match[2]) + float(match[3])
-    return parse_number(text, "a time", path, line) / (1000 if is_ms else 1)
+    number = parse_number(replace_decimal_comma(text), "a time", path, line)
+    return number / (1000 if is_ms else 1)
 
 
 ELAN_TABLE = LabelFormat(

@@ -248,19 +248,23 @@ def _update_tables(
         next_cluster, tables = head["following"], head["tables"]
     else:
         progress("clusters in common")
-        next_cluster = max(head.get("following", 0), read_edits(plan.folder).next_cluster)
+        edits, removed = read_edits(plan.folder), _read_removed(plan.folder)
+        next_cluster = max(head.get("following", 0), edits.next_cluster)
         former = list_activities(plan.folder, head.get("tables"))
-        removed = _read_removed(plan.folder)
-        # Recordings that were removed and are back take their former clusters.
-        returned = {
-            name: removed[key] for name, _, key in entries if key in removed and name not in former
-        }
+        pairs, present = {*before.values()}, {(name, key) for name, _, key in entries}
+        by_key = {key: former[name] for name, key in sorted(pairs)}
+        # Renamed and restored files are recognised by their content, changed ones by their name.
+        known = {**removed, **by_key}
+        moved = {name: key for name, key in sorted(present - pairs) if key in known}
+        spans = {**former, **{name: known[key] for name, key in moved.items()}}
         new_tables, next_cluster = compile_tables(
-            plan.folder, entries, {**returned, **former}, next_cluster, progress
+            plan.folder, entries, spans, next_cluster, progress
         )
-        keys = dict(before.values())
-        by_key = {keys[name]: spans for name, spans in former.items() if name in keys}
         _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
+        gone = {key: name for name, key in sorted(pairs - present)}
+        renamed = {name: gone[key] for name, key in moved.items() if key in gone}
+        if (updated := edits.with_renamed(renamed)) != edits:
+            updated.write(plan.folder)
         tables = write_tables(plan.folder, new_tables)
         write_index(plan.folder, tables, new_tables["recordings"].to_pydict())
     head_now = {**content, "following": next_cluster, "tables": tables}

@@ -26,6 +26,7 @@ from kineme.library.storage.layout import (
     read_json,
     write_json,
 )
+from kineme.segments.annotation import as_text
 
 SCHEMA = "kineme.library.edits/1"
 Number = Annotated[int, msgspec.Meta(ge=-1, lt=MOST_CLUSTERS)]
@@ -79,18 +80,24 @@ class Edits:
 
     def with_name(self, cluster: int, name: str) -> Edits:
         """Return the edits with a name for a cluster; an empty name removes it."""
+        name = as_text(name, "a name")
         if name != name.strip() or not name.isprintable():
             raise ParameterError(f"a name is one line of plain text, not {name!r:.60}")
-        names = {**self.names, self.number(cluster): str(name)}  # numpy text is stored, too
+        names = {**self.names, self.number(cluster): name}
         return replace(self, names={number: text for number, text in names.items() if text})
 
     def with_merge(self, cluster: int, others: Sequence[int]) -> Edits:
-        """Return the edits with others merged into a cluster, which keeps its number and name."""
+        """Return the edits with others merged into a cluster, which keeps its number and name.
+
+        If it has no name, it gets that of the first of the others that has one.
+        """
         target = self.number(cluster)
+        name = next(filter(None, map(self.name, (target, *others))), "")
         moved = {self.number(other) for other in others} - {target}
         merged = {old: target if new in moved else new for old, new in self.merged.items()}
         names = {number: text for number, text in self.names.items() if number not in moved}
-        return replace(self, merged={**merged, **dict.fromkeys(sorted(moved), target)}, names=names)
+        merged |= dict.fromkeys(sorted(moved), target)
+        return replace(self, merged=merged, names=names).with_name(target, name)
 
     def with_split(self, cluster: int, into: int, recordings: Sequence[str]) -> Edits:
         """Return the edits with the segments of a cluster in some recordings as a new cluster."""
@@ -98,6 +105,19 @@ class Edits:
         parts = [target, *(old for old, new in self.merged.items() if new == target)]
         splits = tuple(Split(part, into, tuple(map(str, recordings))) for part in sorted(parts))
         return replace(self, splits=(*self.splits, *splits))
+
+    def with_renamed(self, former: Mapping[str, str]) -> Edits:
+        """Return the edits with splits that apply to renamed recordings; ``former`` is by new name.
+
+        Splits keep the former names, too, in case files get them back.
+        """
+        splits = []
+        for split in self.splits:
+            names = {*split.recordings}
+            new = {name for name, old in former.items() if old in names}
+            recordings = tuple(sorted(names.difference(former) | new))
+            splits.append(replace(split, recordings=recordings))
+        return replace(self, splits=tuple(splits)) if former else self
 
     def apply(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
         """Return cluster numbers of rows after the edits, given their recordings."""

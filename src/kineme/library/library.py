@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from contextlib import nullcontext
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any, Self, Unpack
 
 import numpy as np
 
-from kineme._util.checks import check_flag, check_path, format_count
+from kineme._util.checks import as_texts, check_flag, check_path, format_count
 from kineme._util.files import AnyPath
 from kineme.clips.options import ClipOptions
 from kineme.clips.root_motion import Tag
@@ -35,10 +35,19 @@ from kineme.library.finding import (
     find_hits,
     select_tagged,
 )
-from kineme.library.open_library import Cluster, OpenTables, find_cluster_numbers, list_clusters
+from kineme.library.open_library import (
+    Cluster,
+    OpenTables,
+    find_cluster_numbers,
+    list_clusters,
+    list_vocabularies,
+)
 from kineme.library.storage.layout import (
+    LOCK_EDITS,
     as_column,
     import_arrow,
+    is_remote,
+    lock_for_writing,
     make_path,
     translate_remote_errors,
 )
@@ -48,7 +57,10 @@ from kineme.transfer.matching import THRESHOLD
 
 
 class Library:
-    """A library opened for reading. Edits are saved at once; clusters are given by number or name.
+    """An open library. Edits are saved at once; clusters are given by number or name.
+
+    If another process builds or edits a local library, the next use reads it again; open a library
+    at a URL again yourself.
 
     Parameters
     ----------
@@ -77,7 +89,22 @@ class Library:
         import_arrow()
         self.folder = make_path(folder, "Library")
         with translate_remote_errors(self.folder):
-            self._tables = OpenTables(self.folder)
+            self._opened = OpenTables(self.folder)
+
+    @property
+    def _tables(self) -> OpenTables:
+        """Return the tables; read them again if another process has changed the library."""
+        if self._opened.is_outdated():
+            self._opened = OpenTables(self.folder)
+        return self._opened
+
+    @contextmanager
+    def _lock_edits(self) -> Iterator[OpenTables]:
+        """Provide current tables, whose edits no other process changes during the block."""
+        with lock_for_writing(self.folder, "try again", LOCK_EDITS):
+            if is_remote(self.folder):  # where changes are not noticed
+                self._opened = OpenTables(self.folder)
+            yield self._tables
 
     @property
     def head(self) -> dict[str, Any]:
@@ -285,30 +312,40 @@ class Library:
 
     def name(self, cluster: int | str, name: str) -> Self:
         """Name a cluster and return the library; an empty name removes the name."""
-        with self._tables.editing():
-            edits = self._tables.edits
+        with self._lock_edits() as tables:
+            edits = tables.edits
             for number in self.numbers(cluster):
                 edits = edits.with_name(number, name)
-            self._tables.write(edits)
+            tables.write(edits)
         return self
 
     def merge(self, cluster: int | str, *others: int | str) -> Self:
-        """Merge others into a cluster, which keeps its number and name, and return the library."""
+        """Merge others into a cluster and return the library.
+
+        The cluster keeps its number and name; without a name it gets that of the first that has
+        one. Clusters of bodies and of different sets of channels cannot be merged.
+        """
         if not others:
             raise ParameterError("nothing to merge: name at least two clusters")
-        with self._tables.editing():
+        with self._lock_edits() as tables:
             target, *same = self.numbers(cluster)
             moved = [*same, *(number for other in others for number in self.numbers(other))]
             if {cluster}.issuperset(others):
                 raise ParameterError(f"{cluster!r} is the same cluster: name at least two")
             if not {target}.issuperset(moved):  # else they are merged already
-                self._tables.write(self._tables.edits.with_merge(target, moved))
+                kinds = list_vocabularies(tables, [target, *moved])
+                if len(kinds) > 1:
+                    raise ParameterError(
+                        f"clusters of {' and of '.join(kinds)} cannot be merged: "
+                        "choose clusters of the same kind of recording"
+                    )
+                tables.write(tables.edits.with_merge(target, moved))
         return self
 
     def split(self, cluster: int | str, recordings: Iterable[str]) -> int:
         """Split the segments in some recordings off a cluster; return the new cluster's number."""
-        chosen, tables = list(recordings), self._tables
-        with tables.editing():
+        chosen = as_texts(recordings, "recordings")
+        with self._lock_edits() as tables:
             number, *others = self.numbers(cluster)
             if others:
                 raise ParameterError(

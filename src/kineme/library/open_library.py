@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
@@ -16,11 +15,12 @@ from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
 from kineme.library.planning import read_kept_options, read_recording
 from kineme.library.storage.layout import (
-    LOCK_EDITS,
+    EDITS,
+    HEAD,
     as_array,
     as_column,
     import_arrow,
-    lock_for_writing,
+    is_remote,
     make_path,
     read_head,
 )
@@ -39,6 +39,7 @@ class OpenTables:
 
     def __init__(self, folder: Path):
         self.folder = folder
+        self._stamp = _read_stamp(folder)  # first, so that a later change is noticed
         self.head = read_head(folder)
         try:
             self._computed = self._read()
@@ -92,16 +93,14 @@ class OpenTables:
         """Return the rows of each recording's segments."""
         return find_rows(self.table("segments"))
 
-    @contextmanager
-    def editing(self) -> Iterator[None]:
-        """Lock the edits against other processes during the block, with `edits` up to date."""
-        with lock_for_writing(self.folder, "try again", LOCK_EDITS):
-            self._use_edits(read_edits(self.folder))
-            yield
+    def is_outdated(self) -> bool:
+        """Return whether another process has built or edited the library; False for remote ones."""
+        return _read_stamp(self.folder) != self._stamp
 
     def write(self, edits: Edits) -> None:
         """Write edits to disk and use them."""
         edits.write(self.folder)
+        self._stamp = _read_stamp(self.folder)
         self._use_edits(edits)
 
     def _use_edits(self, edits: Edits) -> None:
@@ -122,6 +121,13 @@ class OpenTables:
                     self.folder, f"{name} and recordings do not match: build the library again"
                 )
         return tables
+
+
+def _read_stamp(folder: Path) -> list[tuple[int, int]]:
+    """Return values that change if a local library is written; empty for a remote one."""
+    paths = [] if is_remote(folder) else [folder / HEAD, folder / EDITS]
+    states = (path.stat() for path in paths if path.exists())
+    return [(state.st_mtime_ns, state.st_ino) for state in states]
 
 
 class Cluster(NamedTuple):
@@ -204,6 +210,14 @@ def tabulate_clusters(clusters: Sequence[Cluster]) -> Any:
             for name in Cluster._fields
         }
     )
+
+
+def list_vocabularies(tables: OpenTables, clusters: Sequence[int]) -> list[str]:
+    """Return the vocabularies (bodies, or sets of channels) of the recordings with clusters."""
+    local = tables.columns("local_clusters")
+    members = {*local["recording"][np.isin(local["cluster"], clusters)].tolist()}
+    rows = zip(tables.recordings["recording"], tables.recordings["vocabulary"], strict=True)
+    return sorted({vocabulary for name, vocabulary in rows if name in members})
 
 
 def find_cluster_numbers(tables: OpenTables, cluster: int | str) -> list[int]:

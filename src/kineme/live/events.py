@@ -2,10 +2,11 @@
 
 A final event never changes; a provisional one is the best guess so far.
 
-Each segmentation of the recent past (a look) gives rows. Those before the horizon become final:
-activities up to the frontier, and repetitions of the open activity as they end. A row that
-contradicts final ones begins at the frontier. A border becomes final when two looks in a row find
-it. The primitives of an activity become final once they are found, as it may not repeat at first.
+Each segmentation of the recent past (a look) gives rows. The start and the cluster of an activity
+become final when two looks in a row find them before the horizon and the activity repeats. Its end
+and its repetitions follow the latest look until the next activity begins, because a look at all of
+it is more reliable than several looks at its parts. The repetitions of a long activity become final
+before the recent past drops them. A row that contradicts final ones begins at the frontier.
 """
 
 from __future__ import annotations
@@ -137,12 +138,8 @@ class Notice(Event):
 
 MOST_SLIP = 0.5
 """Share of a repetition by which the phase may change within an activity."""
-SHORTEST_S = 0.7
-"""Seconds: a shorter rest of a row that contradicts the open activity is ignored."""
 AGREEING_S = 0.5
 """Seconds by which two looks may differ in the start of an activity."""
-SAME_END = 0.25
-"""Share of a repetition by which two looks may differ in its end."""
 
 
 class Row(NamedTuple):
@@ -166,13 +163,6 @@ class Look(NamedTuple):
             for each in self.activities
         )
 
-    def has_repetition(self, row: Row) -> bool:
-        """Return whether a repetition ends where the row does, within `SAME_END`."""
-        near = SAME_END * (row.stop - row.start)
-        return any(
-            each.cluster >= 0 and abs(each.stop - row.stop) <= near for each in self.primitives
-        )
-
 
 class Looks(NamedTuple):
     """Two successive looks at the recent past."""
@@ -181,6 +171,7 @@ class Looks(NamedTuple):
     before: Look | None  # the look before, which must agree; None if it need not
     horizon: int  # frame before which rows become final
     patience: int  # frames before the horizon from which rows become final even if looks disagree
+    memory: int  # frames of the recent past
     now: int  # number of frames when the look was taken
 
 
@@ -197,6 +188,8 @@ class Finals:
     counted: int = 0  # frame up to which the primitives of the open activity are final
     n_repetitions: int = 0  # final repetitions of the open activity
     slip: float = 0.0  # share of a repetition by which their phase has changed
+    coming: list[Row] = field(default_factory=list)  # repetitions after `counted` in the last look
+    coming_slip: float = 0.0  # change of phase of the first of them
     frontier: int = 0  # frame up to which activities are final
     highest: int = -1  # largest cluster number so far
     labels: dict[int, str] = field(default_factory=dict)  # names of known clusters
@@ -205,85 +198,87 @@ class Finals:
         """Make rows before the horizon final; return the events."""
         events: list[Event] = []
         at_s = looks.now / self.fps
+        near = AGREEING_S * self.fps
+        first = -1  # frame at which the open activity begins in the look
         for row in looks.look.activities:
-            begin = max(row.start, self.frontier)
-            if row.stop <= begin:
+            if row.stop <= self.start + near:
                 continue
+            # A look that has the open activity may also change where it ends.
+            begin = max(row.start, self.frontier if first < 0 else self.counted)
             if begin >= looks.horizon:
                 break
-            if row.cluster != self.cluster or not self.frontier:
-                is_late = row.start < self.frontier
-                left = row.stop - begin
-                if is_late and left < SHORTEST_S * self.fps and row.stop < looks.now:
-                    self.frontier = min(row.stop, looks.horizon)
-                    continue
-                if self.frontier and not self._agree(row, looks):
-                    self.frontier = begin
-                    break
+            if row.cluster == self.cluster:
+                first = row.start if first < 0 else first
+            elif self._agree(row, begin, looks):
                 events += self.close(begin, at_s)
                 events += self._open(begin, row.cluster, at_s)
-            self.frontier = min(row.stop, looks.horizon)
-            self._count(row.start, looks, events)
+                first = row.start
+            else:
+                self.frontier = max(self.frontier, begin)
+                break
+            self.frontier = max(self.frontier, min(row.stop, looks.horizon))
+            self.coming, self.coming_slip = self.uncounted(looks.look.primitives, first)
+            # Soon, the first repetitions are seen no longer: half of the recent past is decided.
+            if self.counted < looks.now - looks.memory + looks.patience:
+                events += self._count(min(self.frontier, looks.now - looks.memory // 2), at_s)
         return events
 
-    def _agree(self, row: Row, looks: Looks) -> bool:
-        """Return whether both looks have the activity, and it does not contradict final rows."""
-        if looks.before is None or max(row.start, self.frontier) <= looks.horizon - looks.patience:
+    def _agree(self, row: Row, begin: int, looks: Looks) -> bool:
+        """Return whether both looks have the activity, it repeats and contradicts no final row."""
+        if looks.before is None or begin <= looks.horizon - looks.patience:
             return True
         near = AGREEING_S * self.fps
-        return row.start >= self.frontier - near and looks.before.has_activity(row, near)
+        units = [each for each in looks.look.primitives if row.start <= each.start < row.stop]
+        if row.cluster >= 0 and sum(each.cluster >= 0 for each in units) < 2:
+            return False  # it may be only a part of a slow repetition
+        return row.start >= begin - near and looks.before.has_activity(row, near)
 
     def close(self, stop: int, at_s: float) -> list[Event]:
         """End the open activity at a frame; return the events."""
         self.frontier = max(self.frontier, stop)
         if stop <= self.start:
             return []
+        events: list[Event] = list(self._count(stop, at_s))
         if self.counted < stop:
             self.primitives.append(Row(self.counted, stop, -1))
         self.activities.append(Row(self.start, stop, self.cluster))
-        start, cluster = self.start, self.cluster
-        n_repetitions = self.n_repetitions
-        self.start = self.counted = stop
-        self.cluster, self.n_repetitions, self.slip = -1, 0, 0.0
-        if cluster < 0:
-            return []
-        return [
-            ActivityEnded(
+        if self.cluster >= 0:
+            ended = ActivityEnded(
                 at_s=at_s,
-                start_s=start / self.fps,
+                start_s=self.start / self.fps,
                 stop_s=stop / self.fps,
-                cluster=cluster,
-                repetitions=n_repetitions,
-                label=self.labels.get(cluster, ""),
+                cluster=self.cluster,
+                repetitions=self.n_repetitions,
+                label=self.labels.get(self.cluster, ""),
             )
-        ]
+            events.append(ended)
+        self._open(stop, -1, at_s)
+        return events
 
     def _open(self, start: int, cluster: int, at_s: float) -> list[Event]:
         """Begin an activity, or a transition (-1), at a frame; return the events."""
         self.start = self.counted = start
-        self.cluster, self.n_repetitions, self.slip = cluster, 0, 0.0
+        self.cluster, self.n_repetitions, self.slip, self.coming = cluster, 0, 0.0, []
         self.highest = max(self.highest, cluster)
         if cluster < 0:
             return []
         label = self.labels.get(cluster, "")
         return [ActivityStarted(at_s=at_s, start_s=start / self.fps, cluster=cluster, label=label)]
 
-    def _count(self, first: int, looks: Looks, events: list[Event]) -> None:
-        """Make repetitions of the open activity final that end before the frontier."""
-        rows, slip = self.uncounted(looks.look.primitives, first)
-        for row in rows:
-            is_old = looks.before is None or row.stop <= looks.horizon - looks.patience
-            agreed = is_old or (looks.before and looks.before.has_repetition(row))
-            if row.stop > self.frontier or not agreed:
-                break
-            self.slip, slip = self.slip + slip, 0.0
+    def _count(self, stop: int, at_s: float) -> list[Repetition]:
+        """Make repetitions of the open activity final that end by a frame; return the events."""
+        events = []
+        while self.coming and self.coming[0].stop <= stop:
+            row = self.coming.pop(0)
+            self.slip, self.coming_slip = self.slip + self.coming_slip, 0.0
             if self.counted < row.start:
                 self.primitives.append(Row(self.counted, row.start, -1))
             self.primitives.append(row)
             self.counted = row.stop
             self.highest = max(self.highest, row.cluster)
             self.n_repetitions += 1
-            events.append(self.repetition(row, self.n_repetitions, looks.now / self.fps))
+            events.append(self.repetition(row, self.n_repetitions, at_s))
+        return events
 
     def uncounted(self, primitives: Sequence[Row], first: int) -> tuple[list[Row], float]:
         """Return the repetitions of an activity that are not final, and the change of phase.

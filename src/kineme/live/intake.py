@@ -2,8 +2,9 @@
 
 `kineme.recordings.regular` does this for files; here only the rows of the last half second are
 known. Rows with equal times are averaged, packets of rows that share a time are spread. Holes of up
-to 0.2 s are interpolated linearly, longer ones become gaps. If the clock is set back, the stream
-continues after a gap of one frame.
+to 0.2 s are interpolated linearly, longer ones become gaps. A channel that is slower than the
+others repeats its last value: if it is regular, for as long as it is filled in files. If the clock
+is set back, the stream continues after a gap of one frame.
 
 The frames do not depend on how many rows are added at a time: they are made in blocks, and a block
 waits for the rows of the 0.2 s after it.
@@ -18,7 +19,13 @@ from math import ceil, floor, log10
 import numpy as np
 
 from kineme._util.arrays import Floats, Masks
-from kineme.recordings.regular import LONGEST_S, UNEVEN, Timing
+from kineme.recordings.regular import (
+    LONGEST_S,
+    RATE_STEPS,
+    UNEVEN,
+    Timing,
+    find_longest_filled,
+)
 from kineme.recordings.times import UNITS_OF_TIME, is_near_full_hour, is_unix_time
 
 BLOCK_S = 0.1
@@ -86,14 +93,17 @@ class Intake:
     held_times: Floats = field(default_factory=lambda: np.empty(0))
     held_rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
     filler: Floats = field(default_factory=lambda: np.empty(0))  # values of the last frame
-    # Whether each channel has had a value.
+    # Whether each channel has had a value, and the frames of its last ones, nan if it had fewer.
     seen: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
+    last_at: Floats = field(default_factory=lambda: np.empty((0, 0)))
 
     def __post_init__(self) -> None:
         if not self.filler.size:
             self.filler = np.zeros(len(self.channels))
             self.seen = np.zeros(len(self.channels), np.bool_)
             self.rows = self.held_rows = np.empty((0, len(self.channels)))
+        if not self.last_at.size:
+            self.last_at = np.full((len(self.channels), RATE_STEPS + 1), np.nan)
 
     def add(self, rows: Floats, times: Floats | None = None) -> list[Piece]:
         """Add rows (rows, channels), nan where missing; return the frames that are now complete.
@@ -259,18 +269,39 @@ class Intake:
         made = slice(self.emitted - base, stop - base)
         values = found.values[made].copy()
         self.seen = self.seen | np.isfinite(values).any(axis=0)
+        inside = (self.at >= self.emitted - 0.5) & (self.at < stop - 0.5)
+        for frame, row in zip(self.at[inside], self.rows[inside], strict=True):
+            has_value = np.isfinite(row)
+            self.last_at[has_value, :-1] = self.last_at[has_value, 1:]
+            self.last_at[has_value, -1] = frame
         missing: Masks = np.zeros(len(values), np.bool_)
         if found.missing is not None:
-            missing = np.asarray(found.missing[made][:, self._report_absent(pieces)].any(axis=1))
+            missing = self._find_gaps(found.missing[made], pieces)
             for i, row in enumerate(values):  # A channel without a value repeats its last one.
                 row[:] = np.where(np.isfinite(row), row, values[i - 1] if i else self.filler)
         self.filler = values[-1]
-        inside = (self.at >= self.emitted - 0.5) & (self.at < stop - 0.5)
         self._compare_rate(stop - self.emitted, int(inside.sum()), pieces)
         self.emitted = stop
         kept = max(0, int(np.searchsorted(self.at, stop - before)) - 1)
         self.at, self.rows = self.at[kept:], self.rows[kept:]
         return Frames(values, missing)
+
+    def _find_gaps(self, holes: Masks, pieces: list[Piece]) -> Masks:
+        """Return the frames in a gap; ``holes`` (frames, channels) are longer than `LONGEST_S`."""
+        frames = self.emitted + np.arange(len(holes))
+        gaps = np.asarray(holes.all(axis=1))
+        for channel in np.flatnonzero(holes.any(axis=0) & self._report_absent(pieces)):
+            # Steps are nan until the rate of the channel is known.
+            steps = np.diff(self.last_at[channel])
+            usual, longest = np.median(steps), find_longest_filled(steps, self.fps)
+            if not self.seen[channel]:
+                gaps |= holes[:, channel]
+            elif usual < longest:
+                # Otherwise it has values in few rows, and none is expected.
+                is_fast = longest < LONGEST_S * self.fps + 1
+                late = frames - self.last_at[channel, -1] > longest
+                gaps |= holes[:, channel] & (late | is_fast)
+        return gaps
 
     def _report_absent(self, pieces: list[Piece]) -> Masks:
         """Report channels without a value; return those that make a gap where they are missing."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from kineme._util.arrays import Float32s, Floats, Ints, Masks
 from kineme.errors import KinemeWarning
-from kineme.live.events import Finals, Look, Row
+from kineme.live.events import AGREEING_S, Finals, Look, Row
 from kineme.methods.kineme.constants import KinemeConstants
 from kineme.methods.kineme.tree import (
     MAX_PER_CLUSTER,
@@ -168,6 +168,12 @@ class RecentPast:
         )
         self.known = np.column_stack([*new[:2], named[clusters]]).round().astype(np.int64)
         coarse = table.level == "activity"
+        # The open activity and its repetitions keep their number, which is final.
+        begun = finals.start + AGREEING_S * fps
+        current = rows[coarse & (rows[:, 0] <= begun) & (rows[:, 1] > begun) & (rows[:, 2] >= 0)]
+        for first, last, number in current if finals.cluster >= 0 else ():
+            same = (rows[:, 0] >= first) & (rows[:, 1] <= last) & (rows[:, 2] == number)
+            rows[same, 2] = finals.cluster
         activities, primitives = (
             [Row(*row) for row in rows[chosen].tolist()] for chosen in (coarse, ~coarse)
         )
@@ -197,8 +203,7 @@ class RecentPast:
     def _known_spans(self, finals: Finals) -> Ints:
         """Return final spans of clusters in the recent past, followed by those of the last look."""
         final = [row for row in finals.last_activities(self.start) if row.cluster >= 0]
-        coming = self.known[self.known[:, 1] > finals.frontier].copy()
-        coming[:, 0] = np.maximum(coming[:, 0], finals.frontier)
+        coming = self.known[self.known[:, 1] > finals.frontier]
         return np.concatenate([np.array(final, np.int64).reshape(-1, 3), coming])
 
     def _recognise(

@@ -381,7 +381,9 @@ def measure_rate(source: Source, fps: float = 0.0) -> Source:
         # Rows of a packet share a time, so that many rows may have few times.
         if len(times) >= (TIMED_ROWS if count_rows_for_unit(times) else MOST_TIMED_ROWS):
             break
-    fps = fps or place_rows(as_seconds(times, "s" if source.has_unit else None)[0]).fps
+    seconds, _ = as_seconds(times, "s" if source.has_unit else None)
+    # Channels may have rows of their own, so the values tell the rate of the fastest.
+    fps = fps or place_rows(seconds, np.concatenate([piece.values for piece in begun])).fps
     per_second = 1.0 if source.has_unit else guess_unit(times[np.isfinite(times)], fps)
 
     def rows() -> Iterator[Rows]:

@@ -53,7 +53,7 @@ class Stream:
     skeleton : Skeleton, optional
         Skeleton of a body. Rows are then the positions of its joints in metres, y up.
     delay : float
-        Seconds after which a result is final. A shorter delay makes more errors.
+        Seconds after which the start of an activity is final. A shorter delay makes more errors.
     memory : float
         Seconds of the recent past that are segmented each time.
     interval : float
@@ -243,6 +243,8 @@ class Stream:
     def segmentation(self) -> Segmentation:
         """Return the segments that are final; the current activity ends at the last final frame.
 
+        Its repetitions are added when they are final: when it ends, or after most of `memory`.
+
         Raises ParameterError while nothing is final.
         """
         finals = self._state.finals
@@ -380,7 +382,8 @@ class Stream:
 
     def _advance(self, look: Look, before: Look | None, horizon: int) -> list[Event]:
         over = len(self._state.finals.activities)
-        looks = Looks(look, before, horizon, self._frames(self.delay), self._state.now)
+        delay, now = self._frames(self.delay), self._state.now
+        looks = Looks(look, before, horizon, delay, self._frames(self.memory), now)
         events = self._state.finals.advance(looks)
         self._keep_examples(over)
         return events

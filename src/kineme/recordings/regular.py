@@ -36,6 +36,9 @@ LONGEST_S = 0.2
 UNEVEN = 0.1
 """Fraction of a period by which times may differ from even ones."""
 
+RATE_STEPS = 10
+"""Steps from one value to the next from which a channel is known to be slower than the others."""
+
 _ORDINARY = 0.5  # an ordinary step differs from the median step by at most this fraction
 _MOST = 2 / 3  # fraction of ordinary steps below which the whole duration determines the rate
 _ADDS_UP = 0.1  # fraction by which whole periods may miss the duration
@@ -451,16 +454,24 @@ def _group_by_missing_rows(present: Masks) -> Iterator[tuple[list[int], Masks]]:
         yield channels, present[:, channels[0]]
 
 
-def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
-    """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
-    steps = np.diff(known_frames)
-    max_step = LONGEST_S * fps + 1e-9
+def find_longest_filled(steps: Floats, fps: float) -> float:
+    """Return the longest hole of a channel that is filled, in frames.
+
+    ``steps`` are those from one of its values to the next.
+    """
+    longest = LONGEST_S * fps + 1e-9
     # A channel may be slower than the others but regular: then allow 2.5 of its own steps.
-    # With fewer than ten steps the median says little, and one value per frame is expected.
-    usual = float(np.median(steps)) if len(steps) >= 10 else 1.0
+    # With fewer steps the median says little, and one value per frame is expected.
+    usual = float(np.median(steps)) if len(steps) >= RATE_STEPS else 1.0
     is_slow = 1.5 < usual <= _SLOWEST_S * fps
     if is_slow and (np.abs(steps - usual) <= _ORDINARY * usual).mean() > _MOST:
-        max_step = max(max_step, 2.5 * usual)
+        longest = max(longest, 2.5 * usual)
+    return longest
+
+
+def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.int64]:
+    """Return the holes (holes, 2): frames [start, stop) between known frames too far apart."""
+    max_step = find_longest_filled(np.diff(known_frames), fps)
     # Frames within half a frame of a known one count as known. -1 and n_frames enclose them all.
     ends = np.concatenate([[-1.0], known_frames, [float(n_frames)]])
     starts = np.floor(ends[:-1] + 0.5).astype(np.int64) + 1

@@ -22,6 +22,7 @@ from kineme._util.checks import (
 )
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
+from kineme.recordings.cells import parse_texts
 from kineme.recordings.column_names import (
     describe_alternation,
     is_owner,
@@ -60,9 +61,10 @@ def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None =
         are left out.
     fps : float, optional
         Rows per second. Rows are then frames, and the index is ignored.
-    times : (rows,) array_like, optional
-        Time of each row: numbers in any unit from any origin, dates, or texts of these. By default
-        the dates in the index, the coordinate ``time``, or a column of that name.
+    times : (rows,) array_like or str, optional
+        Time of each row: numbers in any unit from any origin, dates, or texts of these; or the
+        name of a column of a data frame. By default the dates in the index, the coordinate
+        ``time``, or a column of that name.
 
     Returns
     -------
@@ -94,9 +96,21 @@ def read_samples(
 
     ``assumed_fps`` is used if neither data nor caller tell the rate.
     """
+    if hasattr(data, "column_names") and hasattr(data, "to_pandas"):  # a table of pyarrow
+        with require_extra("pandas", "tables"):
+            data = data.to_pandas()
+    unit = None
+    if isinstance(times, str):
+        if times not in getattr(data, "columns", ()):
+            raise ParameterError(
+                f"times is {times!r:.60}: give a time for each row, or the name of a column of a "
+                "data frame"
+            )
+        unit = find_time_unit(times)
+        times, data = data[times], data.drop(columns=times)
     samples = _convert_samples(data)
     if times is not None:
-        samples = replace(samples, times=times, unit=None)
+        samples = replace(samples, times=times, unit=unit)
     timing, notes = _find_rate_and_frames(samples, fps, times, assumed_fps)
     values, names, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
     notes = [*samples.notes, *notes, *timing.notes, *filled]
@@ -156,7 +170,7 @@ def _find_rate_and_frames(
 
 
 def _convert_samples(data: Any) -> _Samples:
-    """Return the rows of an array, a data frame or series, a table, or an xarray object."""
+    """Return the rows of an array, a data frame or series, or an xarray object."""
     if isinstance(data, list | tuple) and any(isinstance(each, Recording) for each in data):
         raise ParameterError(
             "this is a list of recordings: give one at a time; kineme.join_signals joins sensors "
@@ -166,9 +180,6 @@ def _convert_samples(data: Any) -> _Samples:
         raise ParameterError("these are signals already and have their own fps: leave fps= out")
     if hasattr(data, "dims") and hasattr(data, "coords"):
         return _convert_xarray(data)
-    if hasattr(data, "column_names") and hasattr(data, "to_pandas"):  # a table of pyarrow
-        with require_extra("pandas", "tables"):
-            data = data.to_pandas()
     if hasattr(data, "to_frame") and hasattr(data, "index"):
         data = data.to_frame()  # a series
     if hasattr(data, "columns") and hasattr(data, "__getitem__"):
@@ -223,6 +234,9 @@ def _convert_frame(frame: Any) -> _Samples:
     names = list(frame.columns)
     by_place = getattr(frame, "iloc", None)
     columns = [frame[n] if by_place is None else by_place[:, i] for i, n in enumerate(names)]
+    texts = {i: c for i, c in enumerate(columns) if str(c.dtype) in ("object", "str", "string")}
+    parsed, remarks = parse_texts(texts)
+    columns = [parsed.get(i, column) for i, column in enumerate(columns)]
     kinds = [getattr(column.dtype, "kind", "O") for column in columns]
     called = [*map(name_column, names)]
     numbers = [i for i, kind in enumerate(kinds) if kind in "iufb"]
@@ -240,7 +254,7 @@ def _convert_frame(frame: Any) -> _Samples:
     if error := describe_alternation(owners):
         raise ParameterError(error)
     left = [called[i] for i in range(len(called)) if i not in (*chosen, *timing[:1])]
-    notes: list[Note | str] = []
+    notes: list[Note | str] = [*remarks]
     if left:
         notes.append(f"columns that are not channels: {', '.join(left)}")
     values = np.column_stack([_convert_numbers(columns[i]) for i in chosen])

@@ -5,7 +5,9 @@ Columns of times are called ``time``, ``t``, ``timestamp``, ``datetime``, ``elap
 the rate in every row are called ``fps`` or ``rate``.
 
 Times may be dates: ISO 8601 with or without a zone (UTC without), the time of day, or a date as
-loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:00 AM``.
+loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:00 AM``. Without a
+date, ``9:30:00`` is hours, minutes and seconds, and ``9:30`` or ``09:30.25`` minutes and seconds:
+rows of sensors are less than a minute apart, and so are the borders of movements.
 Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds. Their size tells the unit: a
 year from 2001 to 2100 in one unit lies outside these years in another. The unit of numbers with
 another origin, such as the start of a phone, is guessed from their steps.
@@ -31,6 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from kineme._util.arrays import Floats
 from kineme._util.checks import is_number
 from kineme.errors import ParameterError
+from kineme.recordings.cells import parse_texts
 
 T = TypeVar("T")
 
@@ -70,6 +73,8 @@ _WRITTEN = re.compile(
     r"(?:\s*(?P<half>[ap])\.?m\.?)?\s*(?P<zone>Z|[+-]\d\d:?\d\d)?",
     re.IGNORECASE,
 )
+# Two parts are minutes and seconds; `datetime` would take 00:01.200 for a minute and 0.2 s.
+_ELAPSED = re.compile(r"(?:(\d{1,4}):(?=[0-5]\d:))?(\d{1,4}):([0-5]\d(?:[.,]\d+)?)")
 _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
@@ -158,8 +163,11 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
     if times.dtype.kind in "OUS":
         if any(isinstance(value, str) for value in times.ravel()[:9]):
             texts = [(value or "").strip() for value in times.tolist()]
-            return np.array([parse_date(text) if text else np.nan for text in texts]), None
-        if any(isinstance(value, datetime) for value in times.ravel()[:9]):
+            parsed, _ = parse_texts({0: texts})
+            if not parsed:
+                return np.array([parse_date(text) if text else np.nan for text in texts]), None
+            times = parsed[0]
+        elif any(isinstance(value, datetime) for value in times.ravel()[:9]):
             return np.array([_convert_date(value) for value in times.tolist()]), None
     numbers = np.asarray(times, np.float64)
     if unit or (unit := _find_unit_since_1970(numbers)):
@@ -178,7 +186,7 @@ def is_date(text: str) -> bool:
 
 
 def parse_date(text: str, *, day_first: bool | None = None) -> float:
-    """Return seconds since 1970, or since midnight for a time of day; raise ValueError if neither.
+    """Return seconds since 1970, or since 0:00 without a date; raise ValueError for other texts.
 
     A leap second, ``23:59:60``, equals the first second of the next minute, as in Unix time.
     ``day_first`` is the result of `is_day_first`; None for the usual order.
@@ -188,6 +196,9 @@ def parse_date(text: str, *, day_first: bool | None = None) -> float:
     if leap := _LEAP.search(text):
         before = f"{text[: leap.start()]}59{text[leap.end() :]}"
         return parse_date(before, day_first=day_first) + 1
+    if elapsed := _ELAPSED.fullmatch(text):
+        hours, minutes, seconds = elapsed.groups("0")
+        return 3600 * int(hours) + 60 * int(minutes) + float(seconds.replace(",", "."))
     try:
         when = datetime.fromisoformat(text)
     except ValueError:

@@ -13,6 +13,7 @@ from typing import Any, Self
 
 import msgspec
 
+from kineme._util.checks import is_whole_number
 from kineme._util.json import convert_json
 from kineme.errors import ParameterError
 from kineme.segments.table import Level
@@ -56,6 +57,18 @@ class Annotation:
     corrections: int = 0
     excluded: tuple[int, ...] = ()
 
+    def __post_init__(self) -> None:
+        """Convert numbers and texts of numpy, which JSON cannot hold; refuse other types."""
+        names = {
+            as_cluster(cluster): as_text(name, "the name of a cluster")
+            for cluster, name in self.cluster_names.items()
+        }
+        comments = tuple(
+            (level, int(frame), as_text(text, "a comment")) for level, frame, text in self.comments
+        )
+        object.__setattr__(self, "cluster_names", names)
+        object.__setattr__(self, "comments", comments)
+
     @classmethod
     def from_json(cls, content: object) -> Self:
         """Return the annotation from the JSON of a file.
@@ -78,6 +91,20 @@ class Annotation:
     def excludes(self, start_frame: int, stop_frame: int) -> bool:
         """Return whether a primitive of these frames is left out of means."""
         return any(start_frame <= frame < stop_frame for frame in self.excluded)
+
+
+def as_cluster(number: Any) -> int:
+    """Return the number of a cluster as an `int`; raise ParameterError for other values."""
+    if not is_whole_number(number, -1):
+        raise ParameterError(f"a cluster must be a whole number from -1, not {number!r:.60}")
+    return int(number)
+
+
+def as_text(value: object, what: str) -> str:
+    """Return a text as a `str`, not a numpy.str_; raise ParameterError for other types."""
+    if not isinstance(value, str):
+        raise ParameterError(f"{what} must be a text, not {value!r:.60}")
+    return str(value)
 
 
 NO_ANNOTATION = Annotation()

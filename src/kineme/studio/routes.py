@@ -7,6 +7,7 @@ used modules are imported when needed.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast, get_args
 
@@ -353,8 +354,8 @@ class Api:
         return self._get_opened(request).version(*_parse_numbers(request, "number"))
 
     def compare(self, request: Request, sent: requests.CompareRequest) -> messages.Comparison:
-        from kineme.evaluation import scores
-        from kineme.evaluation.inputs import find_differences, score_agreement
+        from kineme.evaluation import evaluate, scores
+        from kineme.evaluation.inputs import find_differences
 
         opened = self._get_opened(request)
         table = opened.table
@@ -367,7 +368,10 @@ class Api:
             other = read_table(opened.listed, path, table)
         else:
             raise ParameterError("name a preset or an annotation to compare with")
-        values = score_agreement(other, table)  # the other table counts as the truth
+        # The other table counts as the truth; without an activity there is nothing to score.
+        known = bool((other.activities.kind == "activity").any())
+        found = evaluate(other, table) if known else {}
+        values = {name: value for name, value in found.items() if isfinite(value)}
         return messages.Comparison(
             name=title,
             segmentation=make_segments_message(other),
@@ -376,7 +380,7 @@ class Api:
                 name: messages.ScoreMeaning(title=scores()[name].title, help=scores()[name].help)
                 for name in values
             },
-            differences=find_differences(other, table),
+            differences=find_differences(other, table) if known else [],
         )
 
     def agreement(self, _: Request, sent: AgreementRequest) -> Agreement:

@@ -22,6 +22,7 @@ from kineme.cycles.channels import Channel, channels_of
 from kineme.cycles.comparison import compare_curves, map_sides
 from kineme.cycles.measure import cycles as measure_cycles
 from kineme.cycles.measure import mark_excluded, measure_other_channels
+from kineme.cycles.repetitions import convert_labels
 from kineme.cycles.table import BY_HAND, Columns, Cycles
 from kineme.recordings import Motion, Signals
 from kineme.segments.annotation import NO_ANNOTATION
@@ -294,7 +295,8 @@ def _have_same_segments(before: Sequence[Segmentation | None], now: Sequence[Seg
 def _add_frames(cycles: Cycles, table: Segmentation) -> Cycles:
     """Return the cycles with a column of the first frames of their segments."""
     # Cycles are in the order of the primitives.
-    frames = [row.start_frame for row in table.primitives if row.kind == "primitive"]
+    rows = convert_labels(table).primitives
+    frames = [row.start_frame for row in rows if row.kind == "primitive"]
     columns = {**cycles.columns, "segment_frame": np.array(frames, np.int64)}
     return replace(cycles, columns=columns)
 

@@ -319,6 +319,13 @@ def alone() -> Segments:
     )
 
 
+@pytest.mark.parametrize("fps", [10.0, 30.0])
+@pytest.mark.parametrize("noise", [0.005, 0.01])
+def test_a_body_that_stands_still_has_no_events(fps: float, noise: float) -> None:
+    rows = np.random.default_rng(0).normal(0, noise, (int(60 * fps), 15))
+    assert not len(find_occurrences(rows, np.ones(len(rows), np.bool_), KINEME.at_most(fps)))
+
+
 @pytest.mark.parametrize(("near", "kept"), [(14, True), (15, False), (1000, False)])
 def test_a_single_repetition_that_hardly_moves_is_none(near, kept) -> None:
     rows = np.arange(300, dtype=np.float32)[:, None]  # 14.5 from the mean of 30 at most

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import kineme
 from kineme.datasets import bundled_recording, bundled_truth, random_recording
 from kineme.errors import ParameterError
-from kineme.evaluation import evaluate_segmentation
+from kineme.evaluation import evaluate
 from kineme.methods.kineme.pipeline import KinemeFound, analyze
 from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.prepare import compute_motion_features
@@ -148,7 +148,7 @@ def test_order_signs_and_zeros_of_the_features_change_nothing(seed, turn, shift)
 def test_threads_and_repetition_change_nothing(preset, set_threads) -> None:
     parts_of = attrgetter(
         *("features", "fine", "borders", "primitives", "segments.labels", "segments.clusters"),
-        *("confidence.clusters", "evidence.sharpness", "evidence.repeated"),
+        *("confidence.clusters", "evidence.sharpness", "evidence.repetition_similarity"),
     )
     found = []
     for threads in (1, 5, 5):
@@ -326,7 +326,7 @@ def test_real_recordings_are_found_as_people_annotated_them(data_dir: Path) -> N
     scores = []
     for trial in load_trials(find_folder(data_dir), names):
         found = segment(trial.motion)
-        scores.append(evaluate_segmentation(trial.truth, found))
+        scores.append(evaluate(trial.truth, found))
         assert scores[-1]["one_to_one_agreed"] >= 0.6, trial.name
         assert 0.75 <= scores[-1]["cluster_ratio"] <= 1.4, trial.name
         assert 0.6 <= scores[-1]["border_ratio"] <= 1.4, trial.name

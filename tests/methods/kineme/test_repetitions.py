@@ -11,7 +11,7 @@ import naive
 from gestures import stack_features
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme.pipeline import KinemeFound
-from kineme.methods.kineme.preset import KINEME
+from kineme.methods.kineme.preset import KINEME, SENSORS
 from kineme.methods.kineme.repetitions import find_repetitions, measure_channel_energies
 from loops import make_nods, make_swings
 
@@ -161,6 +161,16 @@ def test_left_and_right_are_halves_of_one_repetition() -> None:
 def test_what_merely_shakes_is_not_repeated(frames: int, seed: int) -> None:
     rows = np.random.default_rng(seed).normal(0, 0.01, (frames, 15))
     assert len(count(rows)) == 0
+
+
+@pytest.mark.parametrize("fps", [8.0, 10.0, 12.5])
+def test_noise_of_one_channel_is_no_repetition_but_a_slow_movement_with_noise_is(fps) -> None:
+    preset, times = SENSORS.at_most(fps), np.arange(0, 20, 1 / fps)
+    for seed in range(20):
+        noise = np.random.default_rng(seed).normal(0, 0.01, (len(times), 1)).astype(np.float32)
+        assert len(find_repetitions(noise, 0, len(times), preset)) == 0
+        slow = noise + np.float32(0.03 * np.cos(np.pi * times))[:, None]
+        assert len(find_repetitions(slow, 0, len(times), preset)) == pytest.approx(9, abs=1)
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(2, 5), st.integers(1, 3))

@@ -27,11 +27,12 @@ from kineme._util.files import atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.formats.channels.parquet import open_parquet, read_parquet_channels
 from kineme.formats.channels.reading import ChannelTable, read_text_channels
-from kineme.formats.delimited import as_text, make_unique_names, replace_decimal_comma
+from kineme.formats.delimited import as_text, make_unique_names
 from kineme.formats.dialects import find_table
 from kineme.formats.files import FileContent, load
 from kineme.recordings import Signals
 from kineme.recordings.arrays import mark_spans
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.recordings.times import RATE, is_rate, is_timing
 
 SEPARATORS = {".csv": ",", ".tsv": "\t"}

@@ -16,11 +16,12 @@ import numpy as np
 from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.formats.channels.reading import ChannelTable, to_signals
-from kineme.formats.delimited import DelimitedText, is_number, make_unique_names, split_cells
+from kineme.formats.delimited import DelimitedText, make_unique_names, split_cells
 from kineme.formats.devices import Layout, begins_with
 from kineme.formats.dialects import Dialect
 from kineme.formats.options import ReadOptions
 from kineme.recordings import Signals
+from kineme.recordings.cells import is_number
 
 _TIME = r'"?(?:X ?\[s\]|[^,;\t]*Time Series \(s\))'
 _EMG = re.compile(r"\bEMG\b")

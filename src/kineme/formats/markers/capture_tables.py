@@ -26,13 +26,14 @@ from functools import partial
 import numpy as np
 
 from kineme._util.checks import format_count
-from kineme.formats.delimited import DelimitedText, find_separator, is_number, split_cells
+from kineme.formats.delimited import DelimitedText, find_separator, split_cells
 from kineme.formats.dialects import Dialect
 from kineme.formats.files import FileContent
 from kineme.formats.options import ReadOptions
 from kineme.formats.points import Points, to_motion
 from kineme.formats.units import parse_unit
 from kineme.recordings import Motion
+from kineme.recordings.cells import is_number
 from kineme.recordings.joint_names import is_nameless
 
 CHAPTERS = ("trajectories", "devices", "model outputs", "joints", "segments", "events")

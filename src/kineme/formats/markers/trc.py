@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from kineme._util.arrays import Floats
-from kineme.formats.delimited import DelimitedText, find_separator, replace_decimal_comma
+from kineme.formats.delimited import DelimitedText, find_separator
 from kineme.formats.files import (
     RATE_ROUNDING,
     FileContent,
@@ -31,6 +31,7 @@ from kineme.formats.registry import Format
 from kineme.formats.sniffing import find_timing, place_points
 from kineme.formats.units import parse_unit
 from kineme.recordings import Motion
+from kineme.recordings.cells import replace_decimal_comma
 from kineme.recordings.regular import Timing
 
 _MM = 0.001

@@ -22,6 +22,8 @@ from numpy.typing import NDArray
 from kineme._util.arrays import Floats, Ints
 from kineme._util.parallel import check_cancelled
 from kineme.methods.kineme import _event_kernels as kernels
+from kineme.methods.kineme._repetition_kernels import smooth_rows
+from kineme.methods.kineme.repetitions import SMOOTHING
 from kineme.methods.segments import find_segments, number_by_appearance
 
 if TYPE_CHECKING:
@@ -35,6 +37,8 @@ WINDOW = 300.0
 """Largest distance of two occurrences of an event, in seconds of movement time."""
 LEG = 60.0
 """Length of a leg of a path, in seconds of movement time. Run time grows with its square."""
+STILL = 4
+"""Poses nearer to their mean than `event_scale` divided by this are at rest."""
 N_LENGTHS = 24
 """Number of span lengths that are tried, between the shortest and the longest."""
 
@@ -110,14 +114,26 @@ def find_occurrences(
     # Keep a set if its best occurrence is unlikely to be chance. Spans may be parts of paths.
     strongest = np.zeros(len(ranks))
     np.maximum.at(strongest, ranks, scores)
-    is_kept = strongest[ranks] >= least
-    order = np.flatnonzero(is_kept)[np.argsort(spans[is_kept, 0])]
-    spans, ranks = spans[order], ranks[order]
-    similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
     starts, stops = samples.edges[spans[:, 0], 0], samples.edges[spans[:, 1] - 1, 1]
+    # Noise gives a body at rest a speed, and all its poses are similar, so it matches itself.
+    smooth, _ = smooth_rows(np.ascontiguousarray(poses, np.float32), preset.frames(SMOOTHING))
+    moves = measure_reaches(smooth, starts, stops) > preset.event_scale / STILL
+    is_kept = (strongest[ranks] >= least) & moves
+    order = np.flatnonzero(is_kept)[np.argsort(starts[is_kept])]
+    spans, ranks, starts, stops = spans[order], ranks[order], starts[order], stops[order]
+    similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
     # Neighbouring samples may share a frame.
     stops[:-1] = np.minimum(stops[:-1], starts[1:])
     return Occurrences(starts, stops, number_by_appearance(ranks), similarity)
+
+
+def measure_reaches(poses: NDArray[np.floating], starts: Ints, stops: Ints) -> Floats:
+    """Return the largest distance of a pose of each span from the mean pose of the span."""
+    # Fast samples share a frame, so a span may be empty: its pose is that of its start.
+    ends = np.maximum(stops, starts + 1)
+    parts = (poses[start:stop] for start, stop in zip(starts, ends, strict=True))
+    reaches = [np.linalg.norm(part - part.mean(axis=0), axis=1).max() for part in parts]
+    return np.array(reaches, np.float64)
 
 
 class _Samples(NamedTuple):
@@ -141,8 +157,6 @@ def _sample_frames(poses: Floats, free: NDArray[np.bool_], preset: KinemeConstan
     elapsed = np.maximum(after - before, 1)[:, None] / preset.working_fps
     velocities = (poses[after] - poses[before]) / elapsed
     speeds = np.linalg.norm(velocities, axis=1)
-    if speeds.mean() * preset.max_repetition < preset.event_scale:
-        free = np.zeros(n, np.bool_)  # hardly any movement: nothing to search
     # Movement time is the integral of the relative speed; its inverse gives the sampled frames.
     rates = preset.event_rest + (1 - preset.event_rest) * speeds / max(speeds.mean(), 1e-12)
     time = np.append(0, np.cumsum(rates))

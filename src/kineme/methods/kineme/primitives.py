@@ -22,7 +22,12 @@ from kineme._util.parallel import map_threads
 from kineme.methods.kineme import _repetition_kernels as kernels
 from kineme.methods.kineme._repetition_kernels import sample_repetitions
 from kineme.methods.kineme.borders import Sets, fit_ends, join_sets
-from kineme.methods.kineme.events import Occurrences, find_occurrences
+from kineme.methods.kineme.events import (
+    STILL,
+    Occurrences,
+    find_occurrences,
+    measure_reaches,
+)
 from kineme.methods.kineme.repetitions import (
     MIN_EXPLAINED,
     PLACES,
@@ -193,7 +198,7 @@ def find_events(rows: Rows, segments: Segments, preset: KinemeConstants) -> Segm
         occurrences = occurrences.select_within(segments.borders, free)
         if len(occurrences):
             segments = replace_by_occurrences(segments, occurrences, free)
-    return drop_still_clusters(segments, rows, preset.event_scale / 4)
+    return drop_still_clusters(segments, rows, preset.event_scale / STILL)
 
 
 def measure_explained(rows: Rows, segments: Segments, preset: KinemeConstants) -> Floats:
@@ -280,9 +285,7 @@ def drop_still_clusters(segments: Segments, rows: Rows, near: float) -> Segments
     actions, repeats = segments.labels[segments.parents], segments.repeats
     several = segments.counts[segments.parents] > 1
     # Movement in one primitive of a cluster is enough to keep all.
-    parts = np.split(rows, segments.primitives[1:-1])
-    reaches = [np.linalg.norm(part - part.mean(axis=0), axis=1).max() for part in parts]
-    moves = np.array(reaches, np.float64) > near
+    moves = measure_reaches(rows, segments.primitives[:-1], segments.primitives[1:]) > near
     still = np.setdiff1d(actions[repeats], actions[repeats & (moves | several)])
     if not len(still):
         return segments

@@ -79,6 +79,8 @@ SPAN = (1.0, 90.0)
 """Shortest and longest segment that is tested, s."""
 MAX_COMPARED = 32
 """Largest number of samples whose distances give the cost of a segment."""
+EXTREME = 3.0
+"""Variance by which the visited pose of one channel of noise exceeds that of an average one."""
 RAMP = 0.05
 """Half width of the linear ramp around a threshold."""
 
@@ -95,6 +97,8 @@ class Movement:
     """Length of the path up to each frame, and to the end, (frames + 1,)."""
     variance: float
     """Mean square of the poses, weighted by speed."""
+    noise: float
+    """Share of the variance that white noise leaves after smoothing, at most; 0 to 1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,16 +129,17 @@ class Candidate:
     def count(self) -> int:
         return _round_count(self.number)
 
-    def is_chance(self, most: float) -> bool:
+    def is_chance(self, most: float, noise: float) -> bool:
         """Return whether the mean of many repetitions would leave more than ``most`` unexplained.
 
         The mean of a few repetitions is noisy and explains less. So the threshold is what their
-        mean explains if any two have the correlation 1 - ``most``.
+        mean explains if any two have the correlation 1 - ``most``. ``noise`` is the share that
+        noise explains by chance.
         """
         # Variance of a mean: the common part stays, the noise is divided by the number.
         common, others = 1 - most, max(self.number - 1, 1)
         explained = common**2 * others / (1 + (others - 1) * common)
-        return self.unexplained >= 1 - explained
+        return self.unexplained >= (1 - explained) * (1 - noise)
 
     def choose_cuts(self, count: int) -> Frames | None:
         """Return the visits that separate ``count`` repetitions.
@@ -185,7 +190,10 @@ def trace_movement(rows: Rows, preset: KinemeConstants) -> Movement:
     shares = speeds / max(path[-1], 1e-12)
     middle = shares @ poses
     poses = poses - middle
-    return Movement(poses, middle, path, float(shares @ (poses**2).sum(axis=1)))
+    # The mean of n frames keeps 1/n of the variance of white noise; smoothing removed the rest.
+    removed = (rows - middle - poses).var(axis=0).sum() / max(2 * preset.frames(SMOOTHING), 1)
+    noise = min(float(removed / max(poses.var(axis=0).sum(), 1e-12)), 1.0)
+    return Movement(poses, middle, path, float(shares @ (poses**2).sum(axis=1)), noise)
 
 
 def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> Iterator[Frames]:
@@ -218,15 +226,39 @@ def propose_visits(rows: Rows, movement: Movement, preset: KinemeConstants) -> I
 def _find_candidates(rows: Rows, movement: Movement, preset: KinemeConstants) -> list[Candidate]:
     """Return the divisions of an activity into more than one repetition."""
     candidates = []
+    extremes = EXTREME / count_independent_channels(rows)
+    window = 2 * preset.frames(SMOOTHING) + 1
     for visits in propose_visits(rows, movement, preset):
         candidate = without_posture = assess_division(movement, visits, preset, preset.centering)
         if candidate.count > 1:
             # Leaning to one side and the other while standing is no repetition.
             if preset.centering < 1:
                 without_posture = assess_division(movement, visits, preset, centering=1.0)
-            if not without_posture.is_chance(preset.max_unexplained):
+            # Noise explains itself where poses are chosen to be similar: around each visit.
+            period = (visits[-1] - visits[0]) / (len(visits) - 1)
+            noise = movement.noise * (1 + extremes) * window / period
+            if not without_posture.is_chance(preset.max_unexplained, min(noise, 1.0)):
                 candidates.append(candidate)
     return candidates
+
+
+def count_independent_channels(rows: Rows) -> float:
+    """Return the number of independent channels with the same concentration of variance.
+
+    It is the participation ratio: the squared sum of the eigenvalues of the covariance matrix,
+    divided by the sum of their squares.
+
+    Examples
+    --------
+    >>> channel = np.sin(np.arange(100, dtype=np.float32))
+    >>> round(count_independent_channels(np.column_stack([channel, channel])), 3)
+    1.0
+    """
+    centred = rows - rows.mean(axis=0)
+    # Both products have the same eigenvalues; the smaller one is cheaper.
+    product = centred.T @ centred if rows.shape[1] <= len(rows) else centred @ centred.T
+    ratio = np.trace(product) ** 2 / max(float((product**2).sum()), 1e-12)
+    return max(float(ratio), 1.0)  # below 1 only if nothing moves
 
 
 def assess_division(

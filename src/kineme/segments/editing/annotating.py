@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from numpy.typing import NDArray
 
-from kineme.segments.annotation import Comment, Span
+from kineme.segments.annotation import Comment, Span, as_text
 from kineme.segments.editing.borders import find_segment_at
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Level, Segment
@@ -78,7 +78,7 @@ def comment(segmentation: Segmentation, level: Level, frame: int, text: str) -> 
     """
     row = find_segment_at(segmentation, level, frame)
     kept = [each for each in comments(segmentation) if not _is_comment_on(each, row)]
-    if text:
+    if text := as_text(text, "a comment"):
         kept.append(_make_comment(row, text))
     return set_comments(segmentation, kept)
 

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Masks
 from kineme.errors import ParameterError
+from kineme.segments.annotation import as_cluster, as_text
 from kineme.segments.editing.borders import (
     find_segment_at,
     merge,
@@ -56,8 +57,8 @@ def name_segment(segmentation: Segmentation, level: Level, frame: int, label: st
     ['walk', 'limp', 'walk']
     """
     row, names = find_segment_at(segmentation, level, frame), collect_names(segmentation)
-    label = label or names.get(row.cluster, "")
-    named = _change_rows(segmentation, _mark_row(segmentation, row), label=str(label))
+    label = as_text(label, "the name of a segment") or names.get(row.cluster, "")
+    named = _change_rows(segmentation, _mark_row(segmentation, row), label=label)
     # Store an empty name for a cluster without one, or this label might be taken for its name.
     return named if row.cluster < 0 else set_cluster_names(named, {row.cluster: ""} | names)
 
@@ -148,7 +149,7 @@ def _mark_row(segmentation: Segmentation, row: Segment) -> Masks:
 
 def _mark_members(segmentation: Segmentation, cluster: int) -> Masks:
     """Return which rows are in a cluster; raise ParameterError if none is."""
-    members: Masks = segmentation.table.cluster == cluster
+    members: Masks = segmentation.table.cluster == as_cluster(cluster)
     if cluster < 0 or not members.any():
         raise ParameterError(f"no segment is in cluster {cluster}")
     return members
@@ -197,7 +198,7 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
     ('jump', 8)
     """
     new_cluster = _choose_new_cluster(segmentation)
-    if not -1 <= cluster <= new_cluster:
+    if as_cluster(cluster) > new_cluster:
         raise ParameterError(f"there is no cluster {cluster}; the next new one is {new_cluster}")
     chosen, table = find_segment_at(segmentation, level, frame), segmentation.table
     members = _mark_row(segmentation, chosen)
@@ -209,6 +210,8 @@ def set_cluster(segmentation: Segmentation, level: Level, frame: int, cluster: i
 
 def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segmentation:
     """Move all segments of a cluster to another one, and label them with its name.
+
+    If only the cluster that is removed has a name, the other one gets it.
 
     Parameters
     ----------
@@ -235,7 +238,8 @@ def merge_clusters(segmentation: Segmentation, cluster: int, into: int) -> Segme
         raise ParameterError(
             f"cluster {cluster} cannot be merged with itself: name another cluster"
         )
-    return _move_members(segmentation, members, into)
+    names, moved = cluster_names(segmentation), _move_members(segmentation, members, into)
+    return moved if into in names else name_cluster(moved, into, names.get(cluster, ""))
 
 
 def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int]) -> Segmentation:
@@ -264,7 +268,7 @@ def split_cluster(segmentation: Segmentation, cluster: int, frames: Iterable[int
     {0: 7, 1: 4, 2: 5, 3: 4, 4: 6, 5: 4, 6: 2}
     """
     table = segmentation.table
-    in_cluster = (table.cluster == cluster) & (cluster >= 0)
+    in_cluster = _mark_members(segmentation, cluster)
     has_primitives = (in_cluster & (table.level == "primitive")).any()
     members = in_cluster & (table.level == ("primitive" if has_primitives else "activity"))
     leaving = members & np.isin(table.start_frame, [*frames])
