@@ -10,7 +10,7 @@ from typing import Any, Self, Unpack
 import numpy as np
 
 from kineme._util.checks import as_texts, check_flag, check_path, format_count
-from kineme._util.files import AnyPath
+from kineme._util.files import AnyPath, is_remote
 from kineme.clips.options import ClipOptions
 from kineme.clips.root_motion import Tag
 from kineme.errors import ParameterError
@@ -46,7 +46,6 @@ from kineme.library.storage.layout import (
     LOCK_EDITS,
     as_column,
     import_arrow,
-    is_remote,
     lock_for_writing,
     make_path,
     translate_remote_errors,

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
+from kineme._util.files import is_remote
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
@@ -20,7 +21,6 @@ from kineme.library.storage.layout import (
     as_array,
     as_column,
     import_arrow,
-    is_remote,
     make_path,
     read_head,
 )
