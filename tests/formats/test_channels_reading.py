@@ -366,6 +366,8 @@ def test_parquet(tmp_path) -> None:
     assert signals.values.tolist() == [[1, 4], [2, 5], [3, 6]]
     assert signals.fps == 2
     assert signals.provenance.notes == ("columns that are not channels: who",)
+    for times in (None, "time"):
+        assert as_signals(table, times=times).values.tolist() == signals.values.tolist()
     with pytest.raises(ReadError, match="cannot be read as numbers"):
         read(tmp_path / "a.parquet", columns=["who"])
 

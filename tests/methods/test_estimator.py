@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -105,6 +107,24 @@ def test_other_recordings_are_in_the_same_states() -> None:
     assert (found[50:550] == estimator.labels_[900]).all()
     assert (found[650:1150] == estimator.labels_[300]).all()
     assert (estimator.predict(x) == estimator.labels_).mean() > 0.95
+
+
+@pytest.mark.parametrize("gap", [(0, 100), (550, 700), (1100, 1200)])
+def test_rows_in_a_gap_keep_their_state(gap: tuple[int, int]) -> None:
+    x = two_movements()
+    x[slice(*gap)] = np.nan
+    estimator = Segmenter(fps=50).fit(x)
+    assert estimator.predict(x).tolist() == estimator.labels_.tolist()
+
+
+def test_channels_without_names_are_matched_in_order() -> None:
+    x = two_movements()
+    for frame in (pd.DataFrame(x, columns=["a", "b", "c"]), pd.DataFrame(x)):
+        for one, other in ((x, frame), (frame, x)):
+            estimator = Segmenter(fps=50).fit(one)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", UserWarning)
+                assert estimator.predict(other).tolist() == estimator.predict(one).tolist()
 
 
 def test_rows_at_any_times_have_states() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from functools import cache
 from pathlib import Path
@@ -240,6 +241,44 @@ def test_holes_in_arrays_are_filled_or_gaps() -> None:
     signals = as_signals(values, fps=50)
     assert signals.values[3:5, 0].tolist() == [3, 4]  # noqa: PD011
     assert signals.gaps == ((50, 90),)
+
+
+@pytest.mark.parametrize("as_file", [False, True])
+@pytest.mark.parametrize(
+    ("present", "is_kept", "n_gaps", "said"),
+    [
+        ([], False, 0, None),
+        ([10, 200, 480], False, 0, "without values most of the time are left out: gyro"),
+        (range(300), True, 1, r"4 of 10 s are gaps, as single .*: gyro \(40%\); choose other col"),
+        (range(450), True, 1, None),
+    ],
+)
+def test_single_channels_hide_no_others(tmp_path, present, is_kept, n_gaps, said, as_file) -> None:
+    frame = make_movement(np.arange(0, 10, 0.02), ACC).assign(gyro=np.nan)
+    frame.loc[list(present), "gyro"] = 1.0 * np.array(present)
+    frame.to_csv(tmp_path / "a.csv", index=False)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        read = kineme.read(tmp_path / "a.csv", fps=50) if as_file else as_signals(frame, fps=50)
+    assert read.names == ((*ACC, "gyro") if is_kept else tuple(ACC))
+    assert len(read.gaps) == n_gaps
+    assert len(caught) == (said is not None)
+    assert all(re.search(said, str(each.message)) for each in caught)
+
+
+def test_a_pause_of_all_channels_is_no_fault_of_one() -> None:
+    frame = make_movement(np.arange(0, 10, 0.02), ACC)
+    frame.loc[100:400] = np.nan
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert as_signals(frame, fps=50).gaps == ((100, 401),)
+
+
+def test_recordings_are_given_one_at_a_time() -> None:
+    signals = Signals(np.zeros((9, 1)), 50)
+    for function in (kineme.segment, as_signals):
+        with pytest.raises(ParameterError, match="list of recordings: give one at a time"):
+            function([signals, signals])
 
 
 @pytest.mark.parametrize("mark", [".", ","])

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from math import floor
 from pathlib import Path
 
@@ -10,9 +11,10 @@ from hypothesis import strategies as st
 
 from kineme.errors import ParameterError
 from kineme.formats import read
-from kineme.recordings import Motion, Skeleton
+from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.kinematics import compute_local_translations, forward_kinematics
 from kineme.recordings.operations import cut, move, resample, scale, turn
+from kineme.transfer import transfer_features
 
 TREE = Skeleton(
     tuple("abcd"), (-1, 0, 1, 0), np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 1]])
@@ -74,6 +76,17 @@ def test_there_and_back_on_a_real_recording(data_dir: Path) -> None:
     odd = resample(resample(walk, 100), 120)
     n = odd.n_frames
     assert np.abs(odd.positions - walk.positions[:n]).max() < 0.01
+
+
+@pytest.mark.parametrize("fps", [30, 50])
+def test_channels_are_resampled_with_their_gaps(fps: float) -> None:
+    old = Signals(np.arange(121.0), 120, ["acc"], gaps=[(40, 60)])
+    new = resample(old, fps)
+    assert (new.fps, new.names, new.n_frames) == (fps, ("acc",), fps + 1)
+    np.testing.assert_allclose(new.values[:, 0], new.times * 120, atol=1e-9)
+    assert new.gaps == resample(replace(make_motion(121), gaps=old.gaps), fps).gaps
+    with pytest.raises(ParameterError, match="a Motion, not Signals: channels have no joints"):
+        transfer_features(old)  # type: ignore[arg-type]
 
 
 def test_cut() -> None:

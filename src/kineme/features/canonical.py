@@ -342,6 +342,7 @@ def compute_features_and_poses(
     motion: Motion, *, effectors: Names | None = None, mirrored: bool = False
 ) -> tuple[NDArray[np.float32], Floats]:
     """Return the results of both `matching_features` and `matching_poses`, in one pass."""
+    check_motion(motion, "transfer_features")
     at_rate = resample(motion, POSE_FPS)
     poses = compute_poses(at_rate, effectors=effectors)
     shown = mirror_poses(poses) if mirrored else poses

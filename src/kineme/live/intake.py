@@ -35,7 +35,7 @@ SUDDEN_S = 2.0
 COUNTED_S = 2.0
 """Seconds over which rows are counted to check the given rate."""
 ABSENT_S = 2.0
-"""Seconds after which a channel that never had a value is left out."""
+"""Seconds without a value after which a channel is left out."""
 OTHER_RATE = 1.5
 """Ratio from which two rates count as different."""
 UNIT_ROWS, UNIT_STEPS = 20, 3
@@ -95,7 +95,7 @@ class Intake:
     held_times: Floats = field(default_factory=lambda: np.empty(0))
     held_rows: Floats = field(default_factory=lambda: np.empty((0, 0)))
     filler: Floats = field(default_factory=lambda: np.empty(0))  # values of the last frame
-    # Whether each channel has had a value, and the frames of its last ones, nan if it had fewer.
+    # Whether each channel has values, and the frames of its last ones, nan if it had fewer.
     seen: Masks = field(default_factory=lambda: np.empty(0, np.bool_))
     last_at: Floats = field(default_factory=lambda: np.empty((0, 0)))
 
@@ -318,6 +318,10 @@ class Intake:
                 is_fast = longest < LONGEST_S * self.fps + 1
                 late = frames - self.last_at[channel, -1] > longest
                 gaps |= holes[:, channel] & (late | is_fast)
+                since = frames[-1] - self.last_at[channel, -1]
+                if since > max(longest, ABSENT_S * self.fps) and not holes.all():
+                    # Its sensor is off: it counts as one that never had a value.
+                    self.seen[channel], self.last_at[channel] = False, np.nan
         return gaps
 
     def _report_absent(self, pieces: list[Piece]) -> Masks:

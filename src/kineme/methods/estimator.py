@@ -7,6 +7,7 @@ scikit-learn, this one depends on the order of the rows.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Self
 
 import numpy as np
@@ -126,7 +127,10 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
             raise ParameterError("give n_segments or n_states, not both")
         signals, frames = self._read(X, reset=True)
         result = self._choose(self._segment(signals))
-        states = _fill_states(result, self.level, signals)
+        states = result.per_frame("cluster", level=self.level).astype(np.int64)
+        # All transitions (-1) form one additional state.
+        states[states < 0] = states.max() + 1
+        states = _fill_gaps(states, signals)
         # Rows of X may differ from frames if times are uneven.
         starts = result.rows().get("start_row", result.table.start_frame)
         starts = np.unique(starts[result.table.level == self.level])
@@ -141,11 +145,12 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
         """Segment another recording and assign its segments to the fitted states.
 
         Each segment takes the state whose rows are nearest on average, see `kineme.transfer`.
+        Rows in a gap take the state before it.
 
         Parameters
         ----------
         X : (rows,) or (rows, channels) array_like
-            Rows of the same channels.
+            Rows of the same channels; in the same order if only one recording has their names.
 
         Returns
         -------
@@ -155,10 +160,16 @@ class Segmenter(ClusterMixin, BaseEstimator):  # type: ignore[misc]
 
         check_is_fitted(self)
         signals, frames = self._read(X, reset=False)
+        known, names = self._signals.names, signals.names
+        is_nameless = any(all(map(str.isdigit, each)) for each in (known, names))
+        # As in scikit-learn, which warns. Numbers do not count if a channel was left out.
+        if is_nameless and len(known) == len(names) == self.n_features_in_:
+            signals = replace(signals, names=known)
         segments = self._segment(signals).level(self.level)
         borders = zip(segments.start_frame.tolist(), segments.stop_frame.tolist(), strict=True)
         states = assign_to_labels(self._signals, self._states, signals, [*borders])
-        return np.repeat(states, segments.stop_frame - segments.start_frame)[frames]
+        states = np.repeat(states, segments.stop_frame - segments.start_frame)
+        return _fill_gaps(states, signals)[frames]
 
     def _read(self, X: Any, *, reset: bool) -> tuple[Signals, Ints]:  # noqa: N803
         """Return the rows as signals, and the frame of each row."""
@@ -254,12 +265,8 @@ def _get_constants(preset: str | Preset) -> Mapping[str, Any]:
         return {}
 
 
-def _fill_states(result: Segmentation, level: Level, signals: Signals) -> Ints:
-    """Return the state of each frame: its cluster; see `Segmenter.labels_`."""
-    states = result.per_frame("cluster", level=level).astype(np.int64)
-    # All transitions (-1) form one additional state.
-    states[states < 0] = states.max() + 1
-    # Gaps take the state before them, or after them at the start.
+def _fill_gaps(states: Ints, signals: Signals) -> Ints:
+    """Give frames in a gap the state before it, or after it at the start."""
     for start, stop in signals.gaps:
         states[start:stop] = states[start - 1] if start else states[min(stop, len(states) - 1)]
     return states

@@ -154,4 +154,6 @@ class Motion(Recording):
 
 def check_motion(motion: object, caller: str) -> None:
     """Raise ParameterError if the argument of a public function is not a Motion."""
-    check_type(motion, Motion, caller, "kineme.read(path) gives one")
+    is_other = isinstance(motion, Recording)
+    advice = "channels have no joints" if is_other else "kineme.read(path) gives one"
+    check_type(motion, Motion, caller, advice)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from kineme._util import rotations as rot
 from kineme._util.arrays import Floats, interpolate_frames
-from kineme._util.checks import check_rates, is_number
+from kineme._util.checks import check_rates, check_type, is_number
 from kineme.errors import MotionError, ParameterError
 from kineme.recordings.kinematics import compute_local_translations, forward_kinematics
 from kineme.recordings.motion import Motion, check_motion
@@ -23,23 +23,24 @@ from kineme.recordings.signals import Signals
 AnyRecording = TypeVar("AnyRecording", Motion, Signals)
 
 
-def resample(motion: Motion, fps: float) -> Motion:
-    """Return the motion at the times 0, 1/fps, 2/fps, ... up to its last frame.
+def resample(recording: AnyRecording, fps: float) -> AnyRecording:
+    """Return the recording at the times 0, 1/fps, 2/fps, ... up to its last frame.
 
     The result has floor((N - 1) fps / old) + 1 frames. If the old rate is a whole multiple of the
     new one, frames are selected. Otherwise rotations of joints are interpolated on the sphere and
-    translations linearly, so that bones keep their length. Positions without rotations are
-    interpolated linearly. No filter is applied: smooth motions faster than fps / 2 first.
+    translations linearly, so that bones keep their length. Positions without rotations, and
+    channels, are interpolated linearly. No filter is applied: smooth what is faster than fps / 2
+    first.
 
     Parameters
     ----------
-    motion : Motion
+    recording : Motion or Signals
     fps : float
         Frames per second.
 
     Returns
     -------
-    Motion
+    Motion or Signals
         The same object if it has this rate already.
 
     Raises
@@ -59,20 +60,28 @@ def resample(motion: Motion, fps: float) -> Motion:
     >>> kineme.resample(motion, 30.0).n_frames, motion.n_frames
     (1449, 2898)
     """
-    check_motion(motion, "resample")
+    advice = "kineme.read(path) and kineme.as_signals(array) give one"
+    check_type(recording, (Motion, Signals), "resample", advice)
     if not (is_number(fps) and fps > 0):
         raise ParameterError(f"fps is {fps!r:.60}: give frames per second, above 0")
-    ratio = motion.fps / fps
+    ratio = recording.fps / fps
     if ratio == 1:
-        return motion
-    check_rates(motion.fps, fps)
+        return recording
+    check_rates(recording.fps, fps)
     # The small number keeps the last frame despite rounding errors.
-    n = floor((motion.n_frames - 1) / ratio + 1e-9) + 1
-    skeleton, positions, rotations = motion.skeleton, motion.positions, motion.rotations
+    n = floor((recording.n_frames - 1) / ratio + 1e-9) + 1
     # Rounding must not lead beyond the last frame.
-    at = np.minimum(np.arange(n) * ratio, motion.n_frames - 1)
+    at = np.minimum(np.arange(n) * ratio, recording.n_frames - 1)
     # A whole ratio, up to rounding: select frames instead of interpolating.
-    if abs(ratio - round(ratio)) < 1e-9 * ratio:
+    is_whole = abs(ratio - round(ratio)) < 1e-9 * ratio
+    provenance = recording.provenance.noted(f"resampled from {recording.fps:g} to {fps:g} Hz")
+    gaps = _move_gaps(recording, ratio, n)
+    if isinstance(recording, Signals):
+        values = recording.values
+        values = values[:: round(ratio)] if is_whole else interpolate_frames(values, at)
+        return replace(recording, values=values, fps=fps, gaps=gaps, provenance=provenance)
+    skeleton, positions, rotations = recording.skeleton, recording.positions, recording.rotations
+    if is_whole:
         positions = positions[:: round(ratio)]
         rotations = None if rotations is None else rotations[:: round(ratio)]
     elif rotations is None:
@@ -84,8 +93,6 @@ def resample(motion: Motion, fps: float) -> Motion:
         positions = forward_kinematics(
             skeleton, rotations, translations=interpolate_frames(translations, at)
         )
-    provenance = motion.provenance.noted(f"resampled from {motion.fps:g} to {fps:g} Hz")
-    gaps = _move_gaps(motion, ratio, n)
     return Motion(skeleton, positions, fps, rotations, provenance, gaps)
 
 
@@ -264,14 +271,14 @@ def move(motion: Motion, offset: ArrayLike) -> Motion:
     )
 
 
-def _move_gaps(motion: Motion, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
-    """Return the gaps of the motion, in the n frames of one resampled every ``ratio`` frames.
+def _move_gaps(recording: Motion | Signals, ratio: float, n: int) -> tuple[tuple[int, int], ...]:
+    """Return the gaps of the recording, in the n frames of one resampled every ``ratio`` frames.
 
     A new frame between a recorded frame and a gap belongs to the gap.
     """
     spans: list[tuple[int, int]] = []
     # The small numbers keep borders on whole frames despite rounding errors.
-    for start, stop in motion.gaps:
+    for start, stop in recording.gaps:
         # The first new frame after the last recorded one before the gap.
         begin = max(0, floor((start - 1) / ratio + 1e-9) + 1)
         # The first new frame at or after the end of the gap.

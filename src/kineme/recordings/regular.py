@@ -53,6 +53,8 @@ _HOUR, _DAY = 3600.0, 86400.0
 
 FROZEN_S = 3.0
 """Seconds without a change after which an otherwise changing channel counts as frozen."""
+_MISSING = 0.5  # fraction of missing frames above which a channel is left out
+_LOST = 0.25  # fraction of frames lost to gaps of single channels above which a warning is given
 _CHANGES = 0.5  # fraction of steps that change in a channel that is not frozen
 _CLIPPED = 3  # successive values at the limit of a sensor that count as clipped
 _CLIPS = 0.001  # fraction of clipped values from which on a warning is given
@@ -480,12 +482,13 @@ def _find_holes(known_frames: Floats, n_frames: int, fps: float) -> NDArray[np.i
 
 
 def fill_gaps_in_channels(
-    timing: Timing, values: ArrayLike, names: Sequence[str]
-) -> tuple[Floats, tuple[tuple[int, int], ...], list[Note | str]]:
-    """Return finite values of each frame, the gaps, and notes.
+    timing: Timing, values: Floats, names: Sequence[str]
+) -> tuple[Floats, tuple[str, ...], tuple[tuple[int, int], ...], list[Note | str]]:
+    """Return finite values of each frame, the names of their channels, the gaps, and notes.
 
-    A frame lies in a gap if any channel is missing for long. Raise ParameterError if a channel
-    has no number, or nothing is left between the gaps.
+    A frame lies in a gap if any channel is missing for long. A channel that is missing in most
+    frames is left out. Raise ParameterError if a channel has no number, or nothing is left between
+    the gaps.
     """
     resampled = timing.resample(values)
     doubts = find_faulty_channels(resampled, timing.fps, names)
@@ -494,13 +497,24 @@ def fill_gaps_in_channels(
         values_filled = format_count(resampled.filled, "missing value")
         notes.append(f"{values_filled} interpolated linearly")
     if resampled.missing is None:
-        return resampled.values, timing.gaps, [*notes, *doubts]
+        return resampled.values, tuple(names), timing.gaps, [*notes, *doubts]
     jumps = mark_spans(timing.gaps, len(resampled.values))
     for name, channel_missing in zip(names, resampled.missing.T, strict=True):
         if channel_missing.all():
             raise ParameterError(
                 f"column {name!r} contains no numbers: name the other columns (--columns)"
             )
+    # Frames without any channel say nothing about single ones.
+    recorded = ~resampled.missing.all(axis=1)
+    shares = resampled.missing[recorded].mean(axis=0)
+    sparse = shares > _MISSING
+    if sparse.any() and not sparse.all():
+        left_out = [name for name, out in zip(names, sparse, strict=True) if out]
+        others = [name for name, out in zip(names, sparse, strict=True) if not out]
+        found, kept, gaps, notes = fill_gaps_in_channels(timing, values[:, ~sparse], others)
+        remark = "channels without values most of the time are left out: "
+        notes = [Note(remark + join_names(left_out, most=4), "warning"), *notes]
+        return found, kept, gaps, notes
     long = resampled.missing.any(axis=1)
     if (long | jumps).all():
         raise ParameterError(
@@ -512,7 +526,16 @@ def fill_gaps_in_channels(
     if len(holes):
         frames = format_count(int((long & ~jumps).sum()), "frame")
         notes.append(f"{format_count(len(holes), 'gap')} of more than {LONGEST_S:g} s, {frames}")
-    return resampled.values, list_spans(long | jumps), [*notes, *doubts]
+    lost = int((long & recorded).sum())
+    if lost > _LOST * recorded.sum():
+        worst = [f"{names[i]} ({shares[i]:.0%})" for i in np.argsort(-shares) if shares[i] > 0]
+        remark = (
+            f"{lost / timing.fps:.4g} of {recorded.sum() / timing.fps:.4g} s are gaps, as single "
+            f"channels have no values there: {join_names(worst, most=4)}; choose other columns "
+            "(--columns)"
+        )
+        notes.append(Note(remark, "warning"))
+    return resampled.values, tuple(names), list_spans(long | jumps), [*notes, *doubts]
 
 
 def find_faulty_channels(

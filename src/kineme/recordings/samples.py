@@ -11,7 +11,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kineme._util.arrays import Floats, interpolate_frames
-from kineme._util.checks import as_floats, check_type, is_number, join_names, make_unique, warn
+from kineme._util.checks import (
+    as_floats,
+    check_type,
+    is_number,
+    join_names,
+    make_unique,
+    require_extra,
+    warn,
+)
 from kineme.errors import ParameterError
 from kineme.recordings.arrays import as_rate, list_spans, mark_spans
 from kineme.recordings.cells import parse_texts
@@ -22,6 +30,7 @@ from kineme.recordings.column_names import (
     select_channels,
 )
 from kineme.recordings.provenance import Note, Provenance
+from kineme.recordings.recording import Recording
 from kineme.recordings.regular import LONGEST_S, Timing, fill_gaps_in_channels, place_rows
 from kineme.recordings.signals import Signals
 from kineme.recordings.times import (
@@ -47,7 +56,7 @@ def as_signals(data: Any, *, fps: float | None = None, times: ArrayLike | None =
 
     Parameters
     ----------
-    data : array_like, data frame or xarray object
+    data : array_like, data frame, table of pyarrow or xarray object
         (rows,) or (rows, channels), NaN where missing. Counters, labels and columns without numbers
         are left out.
     fps : float, optional
@@ -87,6 +96,9 @@ def read_samples(
 
     ``assumed_fps`` is used if neither data nor caller tell the rate.
     """
+    if hasattr(data, "column_names") and hasattr(data, "to_pandas"):  # a table of pyarrow
+        with require_extra("pandas", "tables"):
+            data = data.to_pandas()
     unit = None
     if isinstance(times, str):
         if times not in getattr(data, "columns", ()):
@@ -100,12 +112,12 @@ def read_samples(
     if times is not None:
         samples = replace(samples, times=times, unit=unit)
     timing, notes = _find_rate_and_frames(samples, fps, times, assumed_fps)
-    values, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
+    values, names, gaps, filled = fill_gaps_in_channels(timing, samples.values, samples.names)
     notes = [*samples.notes, *notes, *timing.notes, *filled]
     provenance = Provenance().noted(*notes).timed(timing.clock, timing.row_seconds)
     if remarks := provenance.warnings:
         warn("; ".join(remarks))
-    return Signals(values, timing.fps, samples.names, gaps, provenance), timing
+    return Signals(values, timing.fps, names, gaps, provenance), timing
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +171,11 @@ def _find_rate_and_frames(
 
 def _convert_samples(data: Any) -> _Samples:
     """Return the rows of an array, a data frame or series, or an xarray object."""
+    if isinstance(data, list | tuple) and any(isinstance(each, Recording) for each in data):
+        raise ParameterError(
+            "this is a list of recordings: give one at a time; kineme.join_signals joins sensors "
+            "that recorded at the same time"
+        )
     if isinstance(data, Signals):
         raise ParameterError("these are signals already and have their own fps: leave fps= out")
     if hasattr(data, "dims") and hasattr(data, "coords"):
@@ -230,6 +247,7 @@ def _convert_frame(frame: Any) -> _Samples:
     chosen = [i for i in numbers if i not in (*timing, *rates)]
     measured = select_channels(called[i] for i in chosen)
     chosen = [i for i in chosen if called[i] in measured]
+    chosen = [i for i in chosen if np.isfinite(_convert_numbers(columns[i])).any()] or chosen
     if not chosen:
         raise ParameterError(f"none of the columns is a channel ({join_names(called)})")
     owners = {name: columns[i] for i, name in enumerate(called) if is_owner(name)}

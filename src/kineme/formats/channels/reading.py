@@ -69,12 +69,12 @@ def to_signals(content: FileContent, name: str, table: ChannelTable, fps: float 
     """Return the signals in a table of channels; ``fps`` overrides the table's rate."""
     timing = table.find_timing(content, fps)
     try:
-        values, gaps, filled = fill_gaps_in_channels(timing, table.values, table.names)
+        values, names, gaps, filled = fill_gaps_in_channels(timing, table.values, table.names)
     except ParameterError as error:
         raise content.error(str(error)) from None
     provenance = content.provenance(name, [*table.notes, *timing.notes, *filled])
     provenance = provenance.timed(timing.clock, timing.row_seconds)
-    return Signals(values, timing.fps, table.names, gaps, provenance)
+    return Signals(values, timing.fps, names, gaps, provenance)
 
 
 def read_text_channels(text: DelimitedText, columns: Sequence[str] | None) -> ChannelTable:
