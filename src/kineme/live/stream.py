@@ -33,6 +33,7 @@ from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals, Skeleton
 from kineme.recordings.arrays import as_rate
 from kineme.recordings.column_names import name_column
+from kineme.recordings.operations import resample
 from kineme.recordings.times import UNITS_OF_TIME, as_seconds
 from kineme.segments.segmentation import Segmentation, check_same_length
 
@@ -61,8 +62,8 @@ class Stream:
     interval : float
         Seconds between two segmentations of the recent past.
     known : (recording, segments), optional
-        An earlier result with the same channels or joints, and the same rate. Clusters that are
-        recognised keep their numbers and labels.
+        An earlier result with the same channels or joints. Clusters that are recognised keep
+        their numbers and labels.
     **options
         Options of `kineme.segment`: ``preset``, ``effectors``, ``emg``, constants of the preset.
 
@@ -451,11 +452,8 @@ class Stream:
         check_type(recording, Motion if skeleton else Signals, "known", advice)
         check_type(segments, Segmentation, "known", "kineme.segment(recording) gives one")
         check_same_length(segments, recording.n_frames)
-        if recording.fps != self.fps:
-            raise ParameterError(
-                f"the recording of known has {recording.fps:g} frames per second, the stream "
-                f"{self.fps:g}: give kineme.resample(recording, {self.fps:g}) and its segments"
-            )
+        ratio = self.fps / recording.fps
+        recording = resample(recording, self.fps)
         if isinstance(recording, Signals):
             values = recording.select(self.layout.channels).values
         elif skeleton is not None and recording.skeleton.names == skeleton.names:
@@ -466,7 +464,8 @@ class Stream:
         earlier.append(values.reshape(len(values), -1), np.zeros(len(values), np.bool_))
         for row in segments.activities:
             if row.cluster >= 0:
-                earlier.keep_example(Row(row.start_frame, row.stop_frame, row.cluster))
+                start, stop = round(row.start_frame * ratio), round(row.stop_frame * ratio)
+                earlier.keep_example(Row(start, stop, row.cluster))
                 if row.label:
                     self._state.finals.labels[row.cluster] = row.label
         self._state.past.examples = earlier.examples
