@@ -78,3 +78,12 @@ def test_a_part_of_a_repetition_is_no_activity_yet():
     early = [([Row(0, 60, 0), Row(60, now, 1)], [30, now - 60]) for now in range(80, 160, 20)]
     late = [([Row(0, now, 0)], [30]) for now in range(160, 400, 20)]
     assert advance_by_looks(early + late)[0] == [(0, 0)]
+
+
+def test_a_start_that_moves_behind_a_short_transition_splits_no_activity():
+    early = [([Row(0, 60, 0), Row(60, now, 1)], [30, 10]) for now in range(80, 200, 20)]
+    late = [
+        ([Row(0, 60, 0), Row(60, 68, -1), Row(68, now, 1)], [30, 100, 10])
+        for now in range(200, 400, 20)
+    ]
+    assert advance_by_looks(early + late)[0] == [(0, 0), (6, 1)]

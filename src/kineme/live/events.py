@@ -207,6 +207,8 @@ class Finals:
             begin = max(row.start, self.frontier if first < 0 else self.counted)
             if begin >= looks.horizon:
                 break
+            if row.cluster != self.cluster and row.stop <= begin:
+                continue  # it is over before anything that may change
             if row.cluster == self.cluster:
                 first = row.start if first < 0 else first
             elif self._agree(row, begin, looks):

@@ -17,6 +17,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from kineme._util.arrays import Floats, Ints
@@ -88,6 +89,10 @@ def find_occurrences(
     Poses (frames, dims) are at the working rate, in body sizes, and not stacked.
     """
     per_second = preset.working_fps / _count_step_frames(preset)
+    # Noise gives a body at rest a speed, and all its poses are similar, so it matches itself.
+    smooth, _ = smooth_rows(np.ascontiguousarray(poses, np.float32), preset.frames(SMOOTHING))
+    nearest = preset.event_scale / STILL
+    free = free & _find_moving_frames(smooth, preset.frames(preset.max_repetition), nearest)
     samples = _sample_frames(np.asarray(poses, np.float64), free, preset)
     if len(samples.seconds) < 2:
         empty = np.empty(0, np.int64)
@@ -115,16 +120,23 @@ def find_occurrences(
     strongest = np.zeros(len(ranks))
     np.maximum.at(strongest, ranks, scores)
     starts, stops = samples.edges[spans[:, 0], 0], samples.edges[spans[:, 1] - 1, 1]
-    # Noise gives a body at rest a speed, and all its poses are similar, so it matches itself.
-    smooth, _ = smooth_rows(np.ascontiguousarray(poses, np.float32), preset.frames(SMOOTHING))
-    moves = measure_reaches(smooth, starts, stops) > preset.event_scale / STILL
-    is_kept = (strongest[ranks] >= least) & moves
+    is_kept = (strongest[ranks] >= least) & (measure_reaches(smooth, starts, stops) > nearest)
     order = np.flatnonzero(is_kept)[np.argsort(starts[is_kept])]
     spans, ranks, starts, stops = spans[order], ranks[order], starts[order], stops[order]
     similarity = np.clip(scores[order] / np.maximum(np.diff(spans)[:, 0], 1), 0, 1)
     # Neighbouring samples may share a frame.
     stops[:-1] = np.minimum(stops[:-1], starts[1:])
     return Occurrences(starts, stops, number_by_appearance(ranks), similarity)
+
+
+def _find_moving_frames(poses: Floats, longest: int, near: float) -> NDArray[np.bool_]:
+    """Return the frames with poses that differ by more than ``near`` within ``longest`` frames."""
+    starts = np.arange(0, len(poses), longest)
+    extremes = np.stack([np.maximum.reduceat(poses, starts), -np.minimum.reduceat(poses, starts)])
+    # The range of each block together with its two neighbours.
+    padded = np.pad(extremes, ((0, 0), (1, 1), (0, 0)), mode="edge")
+    ranges = sliding_window_view(padded, 3, axis=1).max(axis=-1).sum(axis=0)
+    return np.repeat(np.linalg.norm(ranges, axis=1) > near, longest)[: len(poses)]
 
 
 def measure_reaches(poses: NDArray[np.floating], starts: Ints, stops: Ints) -> Floats:

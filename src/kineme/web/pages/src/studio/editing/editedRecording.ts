@@ -204,9 +204,12 @@ export class EditedRecording {
       batch(() => {
         this.queue.value = []; // edits of the command precede the rest
         this.isRunningCommand = true;
-        first?.();
-        this.isRunningCommand = false;
-        this.queue.value = [...this.queue.peek(), ...rest];
+        try {
+          first?.();
+        } finally {
+          this.isRunningCommand = false;
+          this.queue.value = [...this.queue.peek(), ...rest];
+        }
       });
       return true;
     }
