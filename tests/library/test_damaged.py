@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pytest
+from library_folders import write_channels
 from pyarrow import parquet
 
 from kineme.errors import KinemeError, ReadError, WriteError
-from kineme.library import Library
+from kineme.library import Library, build
 
 Damage = Callable[[Path], None]
 
@@ -129,6 +130,13 @@ def test_damage_is_said_in_a_sentence(folder: Path, kind: str) -> None:
     assert "\n" not in str(caught.value)
     if isinstance(caught.value, ReadError):
         assert str(folder) in str(caught.value)
+
+
+def test_a_build_with_another_file_repairs_missing_segments(folder: Path, tmp_path: Path) -> None:
+    DAMAGES["a recording without segments"](folder)
+    write_channels(tmp_path / "more.csv", seed=5)
+    build(tmp_path / "more.csv", folder)
+    assert len(Library(folder).recordings["recording"]) == 4
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
