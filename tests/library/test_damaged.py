@@ -132,11 +132,13 @@ def test_damage_is_said_in_a_sentence(folder: Path, kind: str) -> None:
         assert str(folder) in str(caught.value)
 
 
-def test_a_build_with_another_file_repairs_missing_segments(folder: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("names", [[], ["more.csv"]])
+def test_a_build_repairs_missing_segments(folder: Path, tmp_path: Path, names: list[str]) -> None:
     DAMAGES["a recording without segments"](folder)
-    write_channels(tmp_path / "more.csv", seed=5)
-    build(tmp_path / "more.csv", folder)
-    assert len(Library(folder).recordings["recording"]) == 4
+    for name in names:
+        write_channels(tmp_path / name, seed=5)
+    build([tmp_path / name for name in names], folder)
+    assert len(Library(folder).recordings["recording"]) == 3 + len(names)
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")

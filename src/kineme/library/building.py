@@ -250,16 +250,17 @@ def _update_tables(
         "clustering": asdict(CONSTANTS),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
+    former = list_activities(plan.folder, head.get("tables"))
     is_unchanged = {path: (name, key) for name, path, key in entries} == before
+    # Damaged tables may lack the segments of a recording.
+    is_unchanged &= former.keys() == {name for name, _, _ in entries}
     if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         next_cluster, tables = head["following"], head["tables"]
     else:
         progress("clusters in common")
         edits, (removed, gone) = read_edits(plan.folder), _read_removed(plan.folder)
         next_cluster = max(head.get("following", 0), edits.next_cluster)
-        former = list_activities(plan.folder, head.get("tables"))
         pairs, present = {*before.values()}, {(name, key) for name, _, key in entries}
-        # The tables may be damaged, and lack the segments of a recording.
         by_key = {key: former[name] for name, key in sorted(pairs) if name in former}
         # Renamed and restored files are recognised by their content, changed ones by their name.
         known = {**removed, **by_key}
