@@ -160,7 +160,10 @@ def _fetch_file(files: pooch.Pooch, name: str) -> Path | None:
 
 
 def _download(url: str, path: str, files: pooch.Pooch) -> None:
-    """Download a file; raise FileNotFoundError, with which pooch does not try again, for 404."""
+    """Download a file; raise FileNotFoundError, with which pooch does not try again, for 404.
+
+    Raise ReadError if it is another document, such as a login page, with status 200.
+    """
     try:
         pooch.HTTPDownloader()(url, path, files)
     except requests.HTTPError as error:
@@ -169,3 +172,7 @@ def _download(url: str, path: str, files: pooch.Pooch) -> None:
             if error.response.status_code == 404:
                 raise FileNotFoundError(url) from error
         raise
+    with Path(path).open("rb") as file:
+        # ASF and AMC files start with a comment or a keyword.
+        if url.endswith((".asf", ".amc")) and file.read(1) not in (b"#", b":"):
+            raise ReadError(url, "is no ASF or AMC file: see what a browser shows there")

@@ -257,8 +257,10 @@ def test_a_data_frame_is_measured_like_signals(walks) -> None:
     wanted = kineme.cycles(signals, walks.truth)
     for data, table in ((frame, walks.truth), ([frame], [walks.truth])):
         np.testing.assert_array_equal(kineme.cycles(data, table).curves, wanted.curves)
-    with pytest.raises(ParameterError, match="cycles takes Motion or Signals, not int"):
-        kineme.cycles(5, walks.truth)
+    for number in (5, np.float64(5)):
+        name = type(number).__name__
+        with pytest.raises(ParameterError, match=f"cycles takes Motion or Signals, not {name}"):
+            kineme.cycles(number, walks.truth)
     with pytest.raises(ParameterError, match="cycles takes a Segmentation, not NoneType"):
         kineme.cycles(frame, None)
 

@@ -131,6 +131,10 @@ def test_all_people_get_a_table_each(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, [*asked, "--person", "all", "-o", f"{tmp_path / 'b.csv'}"])
     assert done.exit_code == 0, done.output
     assert (tmp_path / "b.csv").exists()  # one alone needs no number
+    done = CliRunner().invoke(
+        app, ["info", f"{tmp_path / 'a.json'}", *asked[2:4], "--person", "all"]
+    )
+    assert all(f"person {who} of 2" in done.output for who in "01")
 
 
 def test_one_of_several_people(tmp_path: Path) -> None:
@@ -223,6 +227,8 @@ def test_a_number_that_two_people_share_is_ignored(tmp_path: Path) -> None:
 def test_mmpose(tmp_path: Path, named: bool, count: int) -> None:
     motion = read(tmp_path, "a.json", make_mmpose(MMPOSE[count], named=named), fps=30)
     check_sample(motion, "MMPose")
+    floats = json.loads(as_json(make_mmpose(MMPOSE[count], named=named)), parse_int=float)
+    assert read(tmp_path, "b.json", floats, fps=30).n_frames == motion.n_frames
     assert set(MMPOSE[count]) <= set(motion.skeleton.names)
 
 

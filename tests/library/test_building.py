@@ -19,6 +19,7 @@ import kineme
 from kineme.errors import ReadError, WriteError
 from kineme.formats import ReadOptions
 from kineme.library import Library, build, gathering
+from kineme.library.edits import read_edits
 from kineme.methods.segmenter import SegmentOptions
 from plugins import install_package
 
@@ -240,7 +241,9 @@ def test_clusters_whose_recordings_leave_and_come_back_keep_number_and_name(
         build((), folder)
 
 
-@pytest.mark.parametrize("change", ["rename", "shorten and restore", "exchange"])
+@pytest.mark.parametrize(
+    "change", ["rename", "shorten and restore", "exchange", "remove and restore", "rename back"]
+)
 def test_names_and_splits_follow_the_content_of_files(
     takes: Path, tmp_path: Path, change: str
 ) -> None:
@@ -259,6 +262,11 @@ def test_names_and_splits_follow_the_content_of_files(
         jacks.rename(own / "aside")
         walk.rename(jacks)
         (own / "aside").rename(walk)
+    elif change in ("remove and restore", "rename back"):
+        path, home = jacks, tmp_path if change == "remove and restore" else own
+        for step in (home / "b.bvh", own / "c.bvh", jacks, own / "d.bvh"):
+            path = path.rename(step)
+            build((), folder)
     else:
         whole = jacks.read_bytes()
         kineme.write(kineme.read(jacks)[:500], jacks)
@@ -266,6 +274,8 @@ def test_names_and_splits_follow_the_content_of_files(
         jacks.write_bytes(whole)
     build((), folder)
     assert [each._replace(example="") for each in Library(folder).clusters()] == before
+    names = {*Library(folder).table("recordings").column("recording").to_pylist()}
+    assert all(names.issuperset(split.recordings) for split in read_edits(folder).splits)
 
 
 def pieces_in(folder: Path) -> list[str]:

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pytest
+from library_folders import write_channels
 from pyarrow import parquet
 
 from kineme.errors import KinemeError, ReadError, WriteError
-from kineme.library import Library
+from kineme.library import Library, build
 
 Damage = Callable[[Path], None]
 
@@ -129,6 +130,15 @@ def test_damage_is_said_in_a_sentence(folder: Path, kind: str) -> None:
     assert "\n" not in str(caught.value)
     if isinstance(caught.value, ReadError):
         assert str(folder) in str(caught.value)
+
+
+@pytest.mark.parametrize("names", [[], ["more.csv"]])
+def test_a_build_repairs_missing_segments(folder: Path, tmp_path: Path, names: list[str]) -> None:
+    DAMAGES["a recording without segments"](folder)
+    for name in names:
+        write_channels(tmp_path / name, seed=5)
+    build([tmp_path / name for name in names], folder)
+    assert len(Library(folder).recordings["recording"]) == 3 + len(names)
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")

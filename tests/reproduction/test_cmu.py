@@ -13,7 +13,7 @@ from typer.testing import CliRunner, Result
 
 from kineme_reproduction import cmu
 
-BODY = b"1\nroot 0 10 0.5 0 0 0\n" * 5000
+BODY = b"# AST/ASF\n" + b"1\nroot 0 10 0.5 0 0 0\n" * 5000
 
 
 @dataclass
@@ -98,6 +98,7 @@ def test_a_server_that_recovers_is_asked_again(site, kineme_cmu, tmp_path):
     [
         ([0] * 9, (7,), "07.asf: gave up after 5 failed attempts: no connection, or it broke off"),
         ([503] * 9, (7,), "07.asf: gave up after 5 failed attempts: the server answers 503"),
+        ([], (7,), "07_02.amc: is no ASF or AMC file"),
         ([], (9,), "the database has no subject 9"),
         ([], (7, "--trials", "1,5"), "subject 7 has no trial 5"),
         ([], (7, "-o", "/dev/null/x"), "/dev/null/x"),
@@ -106,6 +107,7 @@ def test_a_server_that_recovers_is_asked_again(site, kineme_cmu, tmp_path):
 def test_what_cannot_be_had_is_one_sentence_and_leaves_no_half_file(
     site, kineme_cmu, tmp_path, faults, arguments, message
 ):
+    site.files["/07/07_02.amc"] = b"<html>log in</html>"
     site.faults = faults
     ran = kineme_cmu(*arguments, "-q")
     assert ran.exit_code == 1

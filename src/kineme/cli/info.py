@@ -44,17 +44,20 @@ def info(
     json: Json = False,
 ) -> None:
     """Show the format, length, frame rate and joints of files."""
+
+    def show(path: Path, options: ReadOptions, _: None) -> None:
+        recording = read(path, **vars(options))
+        facts = _collect_facts(recording, segment_options.effectors)
+        if channels:
+            facts["measures"] = _list_measures(path, recording, options)
+        if json:
+            typer.echo(dumps(facts))
+        else:
+            _show(facts, recording, joints=joints)
+
     batch = Batch(files, recursive=recursive)
     for path in batch.paths:
-        with batch.catch_errors(path):
-            recording = read(path, **vars(read_options))
-            facts = _collect_facts(recording, segment_options.effectors)
-            if channels:
-                facts["measures"] = _list_measures(path, recording, read_options)
-            if json:
-                typer.echo(dumps(facts))
-            else:
-                _show(facts, recording, joints=joints)
+        batch.run_each_person(path, read_options, show)
     batch.exit()
 
 

@@ -252,7 +252,7 @@ def _check_inputs(
 
 def _convert_data(data: Any, table: Segmentation | None = None) -> Any:
     """Return arrays and data frames as signals, and all else as it is."""
-    if not hasattr(data, "__array__"):
+    if not hasattr(data, "__array__") or np.ndim(data) == 0:
         return data
     # Rows that are the frames of the table need no times.
     fps = table.fps if table is not None and len(data) == table.n_frames else None

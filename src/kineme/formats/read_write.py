@@ -333,13 +333,12 @@ def _read_file(content: FileContent, options: ReadOptions) -> Motion | Signals:
         kind = type(recording).__name__
         raise content.error(f"the reader of {candidate.name} gave no Motion or Signals, but {kind}")
     # Number 0 is accepted everywhere, so that one command reads files of several formats.
-    # Channels that are read beside a motion belong to everybody.
-    for what in ("take",) if options.channels else ("take", "person"):
+    # Signals, also those beside a motion, belong to nobody.
+    for what in ("take", "person") if isinstance(recording, Motion) else ("take",):
         value = getattr(options, what)
         if value not in (None, "0") and getattr(recording.provenance, what) is None:
             raise content.error(
-                f"there is no {what} {value!r}: it holds a single one, so leave out {what}= "
-                f"(--{what})"
+                f"there is no {what} {value!r}: it names no {what}, so leave out {what}= (--{what})"
             )
     if isinstance(recording, Motion):
         recording = check_bone_lengths(recording)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -62,11 +62,18 @@ FormerRecordings = Mapping[Path, tuple[str, str]]
 """Name and analysis key of the recordings in the library, by path."""
 REMOVED = "left.json"
 """File of the clusters of removed recordings by analysis key, in case they are added again."""
-ActivityColumns = tuple[list[float], list[float], list[int]]
-"""Starts, stops (seconds) and clusters of activities."""
 DAMAGED = "is damaged: remove it. Clusters of recordings that are added again then get new numbers"
 NEVER_FOUND = "there is no such file or folder"
 NOT_FOUND = "is missing, so its recordings are kept: --remove removes them"
+
+
+class RemovedRecording(NamedTuple):
+    """Activities of a removed recording: starts, stops (seconds) and clusters; and its name."""
+
+    starts: list[float]
+    stops: list[float]
+    clusters: list[int]
+    recording: str = ""
 
 
 @dataclass(frozen=True)
@@ -243,16 +250,18 @@ def _update_tables(
         "clustering": asdict(CONSTANTS),
         "failed": {str(path): reason for path, reason in sorted(failed.items())},
     }
+    former = list_activities(plan.folder, head.get("tables"))
     is_unchanged = {path: (name, key) for name, path, key in entries} == before
+    # Damaged tables may lack the segments of a recording.
+    is_unchanged &= former.keys() == {name for name, _, _ in entries}
     if is_unchanged and all(head.get(name) == content[name] for name in ("kineme", "clustering")):
         next_cluster, tables = head["following"], head["tables"]
     else:
         progress("clusters in common")
-        edits, removed = read_edits(plan.folder), _read_removed(plan.folder)
+        edits, (removed, gone) = read_edits(plan.folder), _read_removed(plan.folder)
         next_cluster = max(head.get("following", 0), edits.next_cluster)
-        former = list_activities(plan.folder, head.get("tables"))
         pairs, present = {*before.values()}, {(name, key) for name, _, key in entries}
-        by_key = {key: former[name] for name, key in sorted(pairs)}
+        by_key = {key: former[name] for name, key in sorted(pairs) if name in former}
         # Renamed and restored files are recognised by their content, changed ones by their name.
         known = {**removed, **by_key}
         moved = {name: key for name, key in sorted(present - pairs) if key in known}
@@ -260,10 +269,11 @@ def _update_tables(
         new_tables, next_cluster = compile_tables(
             plan.folder, entries, spans, next_cluster, progress
         )
-        _write_removed(plan.folder, removed, by_key, (key for _, _, key in entries))
-        gone = {key: name for name, key in sorted(pairs - present)}
+        gone |= {key: name for name, key in sorted(pairs - present)}
+        _write_removed(plan.folder, {**removed, **by_key}, gone, {key for _, key in present})
+        same = {name: name for name, _ in pairs & present}
         renamed = {name: gone[key] for name, key in moved.items() if key in gone}
-        if (updated := edits.with_renamed(renamed)) != edits:
+        if (updated := edits.with_renamed(same | renamed)) != edits:
             updated.write(plan.folder)
         tables = write_tables(plan.folder, new_tables)
         write_index(plan.folder, tables, new_tables["recordings"].to_pydict())
@@ -273,30 +283,30 @@ def _update_tables(
     return str(tables)
 
 
-def _read_removed(folder: Path) -> dict[str, Spans]:
-    """Return the activities of removed recordings, by analysis key."""
+def _read_removed(folder: Path) -> tuple[dict[str, Spans], dict[str, str]]:
+    """Return the activities and names of removed recordings, by analysis key."""
     try:
-        content = read_json(folder / REMOVED, ActivityColumns)
+        content = read_json(folder / REMOVED, RemovedRecording)
     except ReadError as error:
         raise ReadError(folder / REMOVED, DAMAGED) from error
-    for starts, stops, clusters in content.values():
+    for starts, stops, clusters, _ in content.values():
         is_same_length = len(starts) == len(stops) == len(clusters)
         if not (is_same_length and all(-1 <= cluster < MOST_CLUSTERS for cluster in clusters)):
             raise ReadError(folder / REMOVED, DAMAGED)
-    return {
+    spans = {
         key: (np.array(starts, float), np.array(stops, float), np.array(clusters, np.int64))
-        for key, (starts, stops, clusters) in content.items()
+        for key, (starts, stops, clusters, _) in content.items()
     }
+    return spans, {key: each.recording for key, each in content.items()}
 
 
 def _write_removed(
-    folder: Path, removed: Mapping[str, Spans], before: Mapping[str, Spans], keys: Iterable[str]
+    folder: Path, spans: Mapping[str, Spans], names: Mapping[str, str], present: set[str]
 ) -> None:
-    """Store the activities of recordings that are not in the library any more."""
-    present = set(keys)
+    """Store the activities and names of recordings that are not in the library any more."""
     content = {
-        key: [column.tolist() for column in spans]
-        for key, spans in {**removed, **before}.items()
+        key: [*(column.tolist() for column in columns), names.get(key, "")]
+        for key, columns in spans.items()
         if key not in present
     }
     if content or (folder / REMOVED).exists():

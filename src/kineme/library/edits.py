@@ -103,21 +103,23 @@ class Edits:
         """Return the edits with the segments of a cluster in some recordings as a new cluster."""
         target = self.number(cluster)
         parts = [target, *(old for old, new in self.merged.items() if new == target)]
-        splits = tuple(Split(part, into, tuple(map(str, recordings))) for part in sorted(parts))
+        names = tuple(sorted(map(str, recordings)))
+        splits = tuple(Split(part, into, names) for part in sorted(parts))
         return replace(self, splits=(*self.splits, *splits))
 
     def with_renamed(self, former: Mapping[str, str]) -> Edits:
-        """Return the edits with splits that apply to renamed recordings; ``former`` is by new name.
+        """Return the edits with splits that apply to renamed recordings.
 
-        Splits keep the former names, too, in case files get them back.
+        ``former`` holds the former name of each recording by its name. Splits also keep the names
+        of removed recordings, in case these are restored.
         """
         splits = []
         for split in self.splits:
             names = {*split.recordings}
             new = {name for name, old in former.items() if old in names}
-            recordings = tuple(sorted(names.difference(former) | new))
+            recordings = tuple(sorted(names.difference(former.values()) | new))
             splits.append(replace(split, recordings=recordings))
-        return replace(self, splits=tuple(splits)) if former else self
+        return replace(self, splits=tuple(splits))
 
     def apply(self, clusters: Ints, recordings: NDArray[Any]) -> Ints:
         """Return cluster numbers of rows after the edits, given their recordings."""

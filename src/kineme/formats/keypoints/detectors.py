@@ -36,7 +36,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from kineme._util.checks import make_unique
+from kineme._util.checks import is_number, make_unique
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.video import (
     Person,
@@ -182,10 +182,12 @@ def read_detections(
 
 
 def _find_number(content: FileContent, detector: Detector, index: int, frame: Any) -> int:
-    """Return the last number in the frame's number or image: 12, "12.jpg", "video_0012"."""
+    """Return the frame's number, the last in a text: 12, 12.0, "12.jpg", "video_0012"."""
     value = frame.get(detector.number) if detector.number else index
     if value is None and detector.people:
         return index
+    if is_number(value):
+        return int(value)
     digits = _DIGITS.findall(str(value)[:200])
     if not digits:
         raise content.error(f"{detector.number} {str(value)[:40]!r} has no frame number in it")
