@@ -227,13 +227,16 @@ class Finals:
 
     def _agree(self, row: Row, begin: int, looks: Looks) -> bool:
         """Return whether both looks have the activity, it repeats and contradicts no final row."""
-        if looks.before is None or begin <= looks.horizon - looks.patience:
+        if looks.before is None:
             return True
         near = AGREEING_S * self.fps
+        is_in_both = looks.before.has_activity(row, near)
+        if begin <= looks.horizon - looks.patience:
+            return is_in_both or begin >= self.frontier
         units = [each for each in looks.look.primitives if row.start <= each.start < row.stop]
         if row.cluster >= 0 and sum(each.cluster >= 0 for each in units) < 2:
             return False  # it may be only a part of a slow repetition
-        return row.start >= begin - near and looks.before.has_activity(row, near)
+        return row.start >= begin - near and is_in_both
 
     def close(self, stop: int, at_s: float) -> list[Event]:
         """End the open activity at a frame; return the events."""
