@@ -44,7 +44,7 @@ from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, require_one_recording
 from kineme.recordings.cells import replace_decimal_comma
-from kineme.recordings.times import is_date, parse_date
+from kineme.recordings.times import HOURLESS, is_date, may_count_hours, parse_date
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking, sort_rows
@@ -191,11 +191,13 @@ def read_intervals(path: Path) -> dict[str, Labels]:
     """Read a table of intervals; return labels by recording, or by "" without that column."""
     first, second = SPANS[0]
     spans: dict[str, list[Span]] = {}
+    times: list[str] = []
     with path.open(encoding="utf-8-sig", newline="") as file:
         headers = [(*names, "label") for names in SPANS]
         for line, row in read_rows(file, path, headers, rename_columns, numbers={*chain(*SPANS)}):
             first, second = next(names for names in SPANS if set(names) <= set(row))
             start, stop = (_parse_time(row[name], name, path, line) for name in (first, second))
+            times += (row[first].strip(), row[second].strip())
             stop += start if second.startswith("duration") else 0.0
             count = _parse_count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
@@ -203,13 +205,15 @@ def read_intervals(path: Path) -> dict[str, Labels]:
             span = Span(start, stop, text, level, _parse_cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
     unit: Literal["seconds", "frames"] = "frames" if first.endswith("frame") else "seconds"
-    return {recording: Labels(some, unit) for recording, some in spans.items()}
+    remarks = (HOURLESS,) if unit == "seconds" and may_count_hours(times) else ()
+    return {recording: Labels(some, unit, remarks=remarks) for recording, some in spans.items()}
 
 
 def _parse_time(cell: str, name: str, path: Path, line: int) -> float:
     """Return a time in frames or seconds.
 
-    It may also be a date (seconds since 1970) or a time of day (since midnight).
+    It may also be a date (seconds since 1970), a time of day (since midnight), or minutes and
+    seconds, which `convert_clock_times` may take for hours and minutes.
     """
     if not name.endswith("frame") and is_date(cell.strip()):
         return parse_date(cell.strip())
