@@ -179,6 +179,9 @@ def test_labels_that_belong_to_nothing_here_are_refused(corpus, tmp_path) -> Non
     (tmp_path / "one.csv").write_text("start_s,stop_s,label\n0,1,step\n")
     with pytest.raises(ReadError, match="a label without a recording: .* column 'recording'"):
         find_labels(find_recordings(corpus), tmp_path / "one.csv")
+    (tmp_path / "boris.csv").write_text("Time,Behavior,Behavior type\n0,step,START\n1,step,STOP\n")
+    with pytest.raises(ReadError, match="without a recording: .* column 'Observation id'"):
+        find_labels(find_recordings(corpus), tmp_path / "boris.csv")
 
 
 def test_a_score_that_fails_costs_itself_only() -> None:

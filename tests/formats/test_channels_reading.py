@@ -186,6 +186,36 @@ def test_times_without_hours_are_minutes_and_seconds(tmp_path, form) -> None:
     assert (signals.fps, signals.n_frames) == (frame.fps, frame.n_frames) == (50, 600)
 
 
+@pytest.mark.filterwarnings("ignore:.*rows with the same time as the row before")
+@pytest.mark.parametrize(
+    ("begin", "per_minute", "head", "fps"),
+    [
+        (9 * 60 + 45, 60, "time", 1),
+        (23 * 60 + 58, 20, "time", 1 / 3),  # midnight
+        (9 * 60 + 45, 20, "time (hh:mm)", 1 / 3),
+        (9 * 60 + 45, 50, "time", 50),
+        (0, 100, "time", 100),  # elapsed
+    ],
+)
+def test_times_of_two_parts_may_be_hours_and_minutes(
+    tmp_path, begin, per_minute, head, fps
+) -> None:
+    at = [(begin + i // per_minute) % 1440 for i in range(9 * per_minute)]
+    texts = [f"{minute // 60:02}:{minute % 60:02}" for minute in at]
+    rows = "".join(f"{text},{i}\n" for i, text in enumerate(texts))
+    signals = read(write(tmp_path, "a.csv", f"{head},a\n{rows}"))
+    assert (signals.fps, signals.n_frames) == (pytest.approx(fps), len(at))
+    told = "minutes and seconds" if fps > 1 else "hours and minutes"
+    assert any(note.endswith(f"read as {told}") for note in get_notes(signals))
+    if "(" not in head:  # only tables in text have such headers
+        assert as_signals(np.arange(len(at)), times=texts).fps == signals.fps
+
+
+def test_a_text_of_times_may_be_missing() -> None:
+    texts = ["9:30:00.00", "9:30:00.02", np.nan, "9:30:00.06", "9:30:00.08"]
+    assert as_signals(np.arange(5), times=np.array(texts, object)).fps == 50
+
+
 def read_clock(folder: Path, times: np.ndarray) -> Signals:
     """Signals whose one channel counts the rows of the file."""
     rows = "".join(f"{float(t)!r},{i}\n" for i, t in enumerate(times))
@@ -206,7 +236,8 @@ def get_notes(signals: Signals) -> tuple[str, ...]:
         (EVEN + 0.004 * (np.arange(400) % 3), 400, (), "uneven (jitter)"),
         (np.where(np.arange(400) % 20, EVEN, np.r_[0, EVEN[:-1]]), 400, (), "uneven (19 rows with"),
         # Clocks that are set or stand still are warned of.
-        (EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
+        ((3598 + EVEN) % 3600, 400, (), "jump by an hour, since they have no hours"),
+        (5000 + EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour, as for summer time"),
         (1_769_398_198.01 + EVEN - 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (1_769_399_998 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),
         (1_769_399_997.9 + EVEN + 3600 * (EVEN >= 2), 400, (), "jump by an hour"),

@@ -36,6 +36,9 @@ def save_archive(path: Path, *names: str) -> Path:
         ("labels.csv", "start_s,stop_s,label\n0,1,a\n", False),
         ("labels.csv", "start_s;stop_s;label\n" + "0.5;1.5;walk\n" * 3, False),
         ("labels.csv", "Observer,Ann\nstart_s,stop_s,label\n" + "0.5,1.5,walk\n" * 3, False),
+        ("labels.csv", "from,to,trial_type\n" + "0,1,walk\n" * 3, False),
+        ("labels.csv", "t_start,t_end,activity\n" + "0,1,walk\n" * 3, False),
+        ("imu.csv", "time,from,acc_x\n" + "0,1,2\n" * 3, True),
         ("labels.tsv", "\ufeffonset\tduration\n", False),
         ("readme.txt", "time went by\n", False),
         ("take.txt", "acc_x\tacc_y\n" + "0.1\t0.2\n" * 20, True),  # nothing tells its rate

@@ -50,6 +50,26 @@ def list_labels(found) -> list[tuple[str, int, int]]:
     return [(row.label, row.start_frame, row.stop_frame) for row in found.activities if row.label]
 
 
+@pytest.mark.parametrize(
+    ("row", "begin", "expected", "unit"),
+    [
+        ("09:45,10:15", 34200, ("walk", 900, 2700), "hours"),  # of the clock, from 09:30:00
+        ("09:30,10:15", 34225, ("walk", 0, 2675), "hours"),
+        ("00:45,01:15", 10, ("walk", 35, 65), "minutes"),
+        ("08:45,09:15", 34200, ("walk", 525, 555), "minutes"),  # from the first frame
+    ],
+)
+def test_hours_and_minutes_are_those_of_the_clock(
+    tmp_path: Path, row: str, begin: int, expected, unit: str
+) -> None:
+    (tmp_path / "labels.csv").write_text(f"start,stop,label\n{row},walk\n")
+    found = LabelSource(tmp_path / "labels.csv").of(
+        n_frames=7200, fps=1.0, clock=Clock([0], [begin])
+    )
+    assert list_labels(found) == [expected]
+    assert any(f"are read as {unit} and " in note for note in found.provenance["notes"])
+
+
 EVERYTHING = [("a", 0, 600), ("b", 600, 1200), ("c", 1201, 1501), ("d", 1501, 2401)]
 """One frame of the pause is left, which is a gap."""
 

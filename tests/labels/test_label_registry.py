@@ -66,6 +66,9 @@ def test_a_table_of_intervals_with_gap_transition_and_counts(
         "name\tbegin (ms)\tend (ms)\nwalk\t0\t2000\njump\t2500\t4000\n",
         "Name,Start,End,Label\nAnn,0,2,walk\nAnn,2.5,4,jump\n",
         "from,to,trial_type\n0,2,walk\n2.5,4,jump\n",
+        "start,duration,to,label\n0,2,1,walk\n2.5,1.5,2,jump\n",
+        "onset,duration,from,to,label\n0,2,1,2,walk\n2.5,1.5,2,1,jump\n",
+        "time_s,event,start_s,stop_s,label\n0,hit,0,2,walk\n3,hit,2.5,4,jump\n",
         "t_start,t_end,label\n0,2,walk\n2.5,4,jump\n",
         "start_time,end_time,trial_type\n0,2,walk\n2.5,4,jump\n",
         "start,end,label\n00:00.000,0:02,walk\n0:00:02.5,00:04,jump\n",
@@ -165,12 +168,15 @@ def test_one_label_per_frame_needs_no_name_of_the_format(tmp_path: Path) -> None
     path.write_text("stand up\n" * 30 + "transition\n" * 10 + "run\n" * 20)
     found = read_segments(path, fps=10)
     assert found.activities.label.tolist() == ["stand up", "", "run"]
+    for text in ("walk", "1\n1\n1", "1\n" * 5000):  # the last line may have no end
+        path.write_text(text)
+        assert holds_labels(path)
     path.write_text("a\n\nb\n")
     with pytest.raises(ReadError, match="line 2: has an empty line: every frame needs a label"):
         read_segments(path, fps=10)
 
 
-@pytest.mark.parametrize("form", ["%d", "%.18e"])
+@pytest.mark.parametrize("form", ["%d", "%.18e", "%.1f"])
 def test_states_that_numpy_saved_are_labels(tmp_path: Path, form: str) -> None:
     states = np.repeat([-1, 0, 1, -1], [20, 30, 40, 10])
     np.savetxt(tmp_path / "states.txt", states, form)
@@ -185,6 +191,7 @@ def test_states_that_numpy_saved_are_labels(tmp_path: Path, form: str) -> None:
     ("name", "text"),
     [
         ("changes.txt", "120\n340\n600\n"),
+        ("edges.csv", "from,to,label\nknee,hip,thigh\n"),
         ("recording.csv", "time,x,y\n0,1,2\n"),
         ("signals.txt", "0.1 0.2\n0.3 0.4\n"),
         ("signals.tsv", "time\tx\n0\t1\n"),

@@ -25,12 +25,16 @@ from kineme.formats.files import FileContent, parse_numbers
 from kineme.recordings.cells import COMMAS, has_decimal_comma, replace_decimal_comma
 from kineme.recordings.column_names import EMPTY, describe_alternation, is_owner
 from kineme.recordings.times import (
+    HOURLESS,
+    HOURS,
     append_unit,
+    counts_hours,
     find_date_columns,
     is_ambiguous,
     is_date,
     is_day_first,
     is_timing,
+    may_count_hours,
     parse_date,
 )
 
@@ -110,10 +114,22 @@ class DelimitedText:
             return None
         return is_day_first(self.texts(self.dates[0]))
 
+    @cached_property
+    def hourly(self) -> dict[int, bool]:
+        """Columns of times such as 9:45, and whether these are hours and minutes."""
+        units = dict(enumerate(self.units))
+        columns = {i: self.texts(i) for i in self.dates if may_count_hours([self.first_cells[i]])}
+        return {
+            i: counts_hours(texts, f"{self.names[i]} {units.get(i, '')}")
+            for i, texts in columns.items()
+            if may_count_hours(texts)
+        }
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """Notes on skipped lines and on the form of numbers and dates."""
         notes = (*self.notes, COMMAS) if self.has_decimal_comma else self.notes
+        notes += tuple(HOURS if is_hours else HOURLESS for is_hours in self.hourly.values())
         doubtful = next(filter(is_ambiguous, (self.first_cells[i] for i in self.dates)), None)
         if doubtful is None or self.day_first is not None:
             return notes
@@ -170,7 +186,11 @@ class DelimitedText:
             values.extend(_parse_cells(content, row, line))
         if not values:
             raise content.error("no row of numbers found")
-        return np.array(values).reshape(-1, len(chosen))
+        table = np.array(values).reshape(-1, len(chosen))
+        for column, i in enumerate(chosen):
+            if self.hourly.get(i):
+                table[:, column] *= 60  # they were read as minutes and seconds
+        return table
 
     def refuse_interleaved(self, requested: Collection[str] = ()) -> None:
         """Raise ReadError if rows of several points, people or devices alternate."""

@@ -32,12 +32,16 @@ from kineme.errors import ReadError
 from kineme.formats.dialects import find_table, recognise_table
 from kineme.formats.files import FileContent
 from kineme.formats.keypoints.openpose import list_frame_files
+from kineme.formats.label_columns import holds_spans
 from kineme.formats.registry import is_video, recognises_safely, supported_formats
 from kineme.recordings.column_names import group_axes
 from kineme.recordings.times import is_timing
 
-SPANS = (b"start_s", b"start_frame", b"onset", b"start", b"behavior", b"behavior type")
-"""Columns of tables whose rows are spans or events, in lower case."""
+SEGMENT_COLUMNS = (b"start_s", b"start_frame")
+"""Columns of kineme's tables of segments."""
+
+EVENT_COLUMNS = ("start_s", "start_frame", "onset", "start", "behavior", "behavior type")
+"""Columns of which one shows that rows are spans or events, even without stops and labels."""
 
 MIN_ROWS, MIN_COLUMNS = 3, 2
 """Minimum size of a table of numbers in a text file that is listed as a recording."""
@@ -166,7 +170,7 @@ def _is_recording(path: Path) -> bool:
     if suffix == ".parquet":
         # The names of its columns are at the end of the file.
         tail = read_tail(path)
-        return not any(name in tail for name in SPANS[:2])
+        return not any(name in tail for name in SEGMENT_COLUMNS)
     return suffix != ".npz" or _has_motion_arrays(path)
 
 
@@ -193,7 +197,7 @@ def _has_span_columns(path: Path) -> bool:
         names = find_table(FileContent(path, read_head(path))).names
     except ReadError:  # an empty file: reading it reports the error
         return False
-    return any(name.lower().encode() in SPANS for name in names)
+    return holds_spans(names) or any(name.lower() in EVENT_COLUMNS for name in names)
 
 
 def _has_motion_arrays(path: Path) -> bool:

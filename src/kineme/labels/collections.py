@@ -234,8 +234,9 @@ def _read_table(path: Path) -> dict[str, LabelSource]:
         read = event_tables.read_observations if is_boris else csv_table.read_intervals
         tables = read(path)
     if "" in tables:
+        column = "Observation id" if is_boris else "recording"
         raise ReadError(
-            path, "has a label without a recording: name it in a column 'recording' of each row"
+            path, f"has a label without a recording: name it in a column {column!r} of each row"
         )
     return {recording: LabelSource(path, labels, name) for recording, labels in tables.items()}
 

@@ -9,9 +9,9 @@ formulas start with ``'``. Columns are found by name; unknown ones are ignored.
 Handwritten tables of intervals are read as well: ``label`` with ``start_s`` and ``stop_s``
 (seconds, or dates such as 2026-01-31T09:30:00.25), or with ``start_frame`` and ``stop_frame``,
 in any order, and optionally ``level``, ``kind``, ``cluster`` and ``count`` (repetitions). Columns
-may have other usual names (`ALIASES`), milliseconds, or durations. Uncovered frames are
-transitions. A column ``recording`` must name only one recording; tables of several are read by
-`kineme.labels.collections`.
+may have other usual names (`kineme.formats.label_columns`), milliseconds, or durations. Uncovered
+frames are transitions. A column ``recording`` must name only one recording; tables of several are
+read by `kineme.labels.collections`.
 """
 
 from __future__ import annotations
@@ -20,15 +20,16 @@ import csv
 import json
 import math
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, replace
-from itertools import chain, product
+from itertools import chain
 from pathlib import Path
 from typing import Any, Literal
 
 from kineme._util.files import atomic_write, translate_read_errors
 from kineme.errors import ReadError
-from kineme.formats.delimited import find_separator, from_text
+from kineme.formats.delimited import find_separator, from_text, split_cells
+from kineme.formats.label_columns import FROM_TO, SPANS, holds_spans, rename_columns
 from kineme.labels.delimited import (
     CUTS_KEY,
     digest_cuts,
@@ -37,40 +38,18 @@ from kineme.labels.delimited import (
     parse_level,
     parse_number,
     read_columns,
+    read_first_bytes,
     read_rows,
     write_rows,
 )
 from kineme.labels.json_table import SCHEMA, join_head, make_head, parse
 from kineme.labels.registry import LabelFormat
 from kineme.labels.spans import Labels, Span, require_one_recording
-from kineme.recordings.cells import replace_decimal_comma
-from kineme.recordings.times import is_date, parse_date
+from kineme.recordings.cells import is_number, replace_decimal_comma
+from kineme.recordings.times import HOURLESS, is_date, may_count_hours, parse_date
 from kineme.segments.editing.annotating import assign_comments, set_comments_by_row
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import COLUMNS, COMMENT, Segment, find_lacking, sort_rows
-
-SPANS = (
-    ("start_s", "stop_s"),
-    ("start_frame", "stop_frame"),
-    ("start_s", "duration_s"),
-    ("start_ms", "stop_ms"),
-    ("start_ms", "duration_ms"),
-)
-"""Pairs of columns that give the span of a label, preferred ones first."""
-ALIASES = {
-    "start": ("start", "begin", "onset", "start_time", "begin_time", "t_start", "from"),
-    "stop": ("stop", "end", "offset", "stop_time", "end_time", "t_stop", "t_end", "to"),
-    "duration": ("duration",),
-    "label": ("label", "name", "activity", "trial_type"),
-    "recording": ("recording", "file", "filename", "file_name"),  # a trial may be a number
-}
-"""Usual names of columns, preferred ones first, see `rename_columns`."""
-OTHER_TABLES = (
-    {"level", "start_frame"},  # segment tables and manifests of clips
-    {"file", "start", "stop"},  # clip lists, which count frames
-    {"onset", "duration", "trial_type"},  # BIDS events
-)
-"""Columns of tables whose columns are not renamed."""
 
 
 def write(_: Sequence[Segment], segmentation: Segmentation, path: Path) -> None:
@@ -92,7 +71,7 @@ def read(path: Path) -> Segmentation | Labels:
         first = file.readline()
         comma = find_separator(first)
         names = set(next(csv.reader([first], delimiter=comma), []))
-        if {"time_s", "event"} <= names:
+        if {"time_s", "event"} <= names and not holds_spans(names):
             raise ReadError(
                 path,
                 "is a table of events, which have no duration: kineme events --labels FILE writes "
@@ -147,33 +126,6 @@ def choose_roundest_rate(n_frames: int, seconds: float) -> float:
     return next((fps for fps in rounded if fps and n_frames / fps == seconds), n_frames / seconds)
 
 
-def rename_columns(names: Collection[str]) -> list[str]:
-    """Replace usual names of columns by those of kineme; exact names take precedence.
-
-    Examples
-    --------
-    >>> rename_columns(["File", "Start Time", "end (ms)", "activity", "Label"])
-    ['recording', 'start_s', 'stop_ms', 'activity', 'label']
-    """
-    renamed = list(names)
-    if any(needed <= set(names) for needed in OTHER_TABLES):
-        return renamed
-    has_span = any(set(pair) <= set(names) for pair in SPANS)
-    found = []  # rank of the alias, position and new name
-    for (i, name), (column, aliases) in product(enumerate(names), ALIASES.items()):
-        plain = re.sub(r"[\W_]+", "_", name.lower()).strip("_")
-        base, _, unit = plain.rpartition("_")
-        if unit not in ("s", "ms", "frame"):
-            base, unit = plain, "s"
-        is_time = column in ("start", "stop", "duration")
-        if base in aliases and not (is_time and has_span):
-            found.append((aliases.index(base), i, f"{column}_{unit}" if is_time else column))
-    for _, i, column in sorted(found):
-        if column not in renamed:
-            renamed[i] = column
-    return renamed
-
-
 def lists_recordings(path: Path) -> bool:
     """Return whether a table has a column ``recording``, or lists several in one named otherwise.
 
@@ -191,11 +143,13 @@ def read_intervals(path: Path) -> dict[str, Labels]:
     """Read a table of intervals; return labels by recording, or by "" without that column."""
     first, second = SPANS[0]
     spans: dict[str, list[Span]] = {}
+    times: list[str] = []
     with path.open(encoding="utf-8-sig", newline="") as file:
         headers = [(*names, "label") for names in SPANS]
         for line, row in read_rows(file, path, headers, rename_columns, numbers={*chain(*SPANS)}):
             first, second = next(names for names in SPANS if set(names) <= set(row))
             start, stop = (_parse_time(row[name], name, path, line) for name in (first, second))
+            times += (row[first].strip(), row[second].strip())
             stop += start if second.startswith("duration") else 0.0
             count = _parse_count(row, path, line)
             text = "transition" if row.get("kind") == "transition" else row["label"]
@@ -203,13 +157,15 @@ def read_intervals(path: Path) -> dict[str, Labels]:
             span = Span(start, stop, text, level, _parse_cluster(row), repetitions=count)
             spans.setdefault(row.get("recording", ""), []).append(span)
     unit: Literal["seconds", "frames"] = "frames" if first.endswith("frame") else "seconds"
-    return {recording: Labels(some, unit) for recording, some in spans.items()}
+    remarks = (HOURLESS,) if unit == "seconds" and may_count_hours(times) else ()
+    return {recording: Labels(some, unit, remarks=remarks) for recording, some in spans.items()}
 
 
 def _parse_time(cell: str, name: str, path: Path, line: int) -> float:
     """Return a time in frames or seconds.
 
-    It may also be a date (seconds since 1970) or a time of day (since midnight).
+    It may also be a date (seconds since 1970), a time of day (since midnight), or minutes and
+    seconds, which `convert_clock_times` may take for hours and minutes.
     """
     if not name.endswith("frame") and is_date(cell.strip()):
         return parse_date(cell.strip())
@@ -298,8 +254,14 @@ def _format_cells(row: Segment) -> list[Any]:
 
 def _recognises(path: Path) -> bool:
     """Return whether the first line has the columns of segments or intervals."""
-    found = set(rename_columns(read_columns(path)))
-    return any({*names, "label"} <= found for names in SPANS)
+    names = read_columns(path)
+    if {name.lower() for name in names} >= FROM_TO:
+        # The edges of a graph have columns of these names, too, but hold no number.
+        row = "".join(read_first_bytes(path).decode(errors="replace").splitlines()[1:2])
+        cells = split_cells(row, find_separator(row))
+        if row and not any(is_number(cell) or is_date(cell) for cell in cells):
+            return False
+    return holds_spans(names)
 
 
 FORMAT = LabelFormat(

@@ -31,7 +31,7 @@ from contextlib import suppress
 from itertools import groupby, pairwise
 from pathlib import Path
 
-from kineme._util.files import atomic_write
+from kineme._util.files import HEAD, atomic_write
 from kineme.errors import ReadError, WriteError
 from kineme.labels.csv_table import choose_roundest_rate
 from kineme.labels.delimited import (
@@ -52,7 +52,6 @@ from kineme.segments.table import Segment
 
 FOLDER = "groundTruth"
 NOTHING = ("background", "SIL")
-_STATE = re.compile(r"-?\d\.\d{18}e\+\d\d")  # in the format of np.savetxt
 NEEDED = ("file", "start", "stop")
 
 
@@ -138,8 +137,8 @@ def _read_ms_tcn(path: Path) -> Labels:
 
 def _name_class(text: str) -> str:
     """Return the text of a segment for the label of its frames."""
-    if _STATE.fullmatch(text):
-        text = f"{float(text):.0f}"
+    if is_number(text) and (value := float(text.replace(",", "."))).is_integer():
+        text = f"{value + 0.0:.0f}"  # without the sign of -0.0
     return "transition" if text in NOTHING or re.fullmatch(r"-[1-9]\d*", text) else text
 
 
@@ -164,7 +163,9 @@ def _list_classes(mapping: Path) -> dict[str, int]:
 
 def _is_ms_tcn(path: Path) -> bool:
     """Return whether the first line is a text and not a row of a table, or lines are states."""
-    lines = read_first_bytes(path).decode(errors="replace").split("\n")[:-1]
+    lines = read_first_bytes(path).decode(errors="replace").splitlines()
+    if lines and path.stat().st_size > HEAD:  # the last line may be cut off
+        del lines[-1:]
     first = lines[0].strip() if lines else ""
     if bool(first) and "\t" not in first and not first[0].isdigit() and first[0] not in "-+.":
         return True

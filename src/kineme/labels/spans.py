@@ -36,7 +36,7 @@ from kineme._util.arrays import Floats
 from kineme._util.checks import format_count
 from kineme.errors import ParameterError, ReadError
 from kineme.labels.delimited import SAME_RATE
-from kineme.recordings.times import Clock
+from kineme.recordings.times import HOURLESS, HOURS, Clock
 from kineme.segments.segmentation import Segmentation
 from kineme.segments.table import Kind, Level, Segment, choose_kind
 
@@ -320,6 +320,12 @@ def convert_clock_times(labels: Labels, clock: Clock | None, *, length_s: float)
         return labels
     times = np.array([span[:2] for span in labels.spans], np.float64)
     seconds, remarks = _convert_seconds(times, clock, length_s)
+    hours = clock.second(60 * times)
+    # Times such as 9:45 are cut to the minute, and no hours if the clock shows them as minutes.
+    is_within = hours.min() > -60 and hours.max() < length_s + 60
+    if HOURLESS in labels.remarks and is_within and times.max() < clock.times[0]:
+        labels = replace(labels, remarks=())
+        seconds, remarks = hours, (HOURS,)
     # A label may begin before the recording.
     begin, end = np.maximum(seconds[:, 0], 0.0), seconds[:, 1]
     # Keep reversed labels: they are rejected by name later.

@@ -229,7 +229,8 @@ def _correct_clock(shown: Floats, values: Floats | None) -> tuple[Floats, Masks,
     hours = ((near(-_HOUR) & back) | (near(_HOUR) & forward)) & (usual < _HOUR / 10)
     days = near(-_DAY) & back
     if hours.any():
-        notes.append(Note("local times jump by an hour, as for summer time: corrected", "warning"))
+        cause = "as for summer time" if shown.max() >= _HOUR else "since they have no hours"
+        notes.append(Note(f"local times jump by an hour, {cause}: corrected", "warning"))
     # Correction at each step; the cumulative sum applies it to all later rows.
     shift = np.where(hours, -_HOUR * np.sign(steps), np.where(days, _DAY, 0.0))
     at = shown + np.append(0.0, np.cumsum(shift)) if shift.any() else shown

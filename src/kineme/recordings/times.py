@@ -6,8 +6,9 @@ the rate in every row are called ``fps`` or ``rate``.
 
 Times may be dates: ISO 8601 with or without a zone (UTC without), the time of day, or a date as
 loggers and spreadsheets write it, ``31.01.2026 09:30:00`` or ``1/31/2026 9:30:00 AM``. Without a
-date, ``9:30:00`` is hours, minutes and seconds, and ``9:30`` or ``09:30.25`` minutes and seconds:
-rows of sensors are less than a minute apart, and so are the borders of movements.
+date, ``9:30:00`` is hours, minutes and seconds, and ``9:30`` or ``09:30.25`` minutes and seconds.
+A column of ``9:30`` without seconds is hours and minutes if it shows this (`counts_hours`); for
+labels, if the clock of the recording does (`kineme.labels.spans.convert_clock_times`).
 Numbers may count from 1970 in seconds, milli-, micro- or nanoseconds. Their size tells the unit: a
 year from 2001 to 2100 in one unit lies outside these years in another. The unit of numbers with
 another origin, such as the start of a phone, is guessed from their steps.
@@ -21,6 +22,7 @@ first of the two. A time within a pause maps to the end of the pause.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -46,6 +48,12 @@ UNITS_NAMED = {"ms": "milliseconds", "us": "microseconds", "ns": "nanoseconds"}
 RATE = "fps"
 """Name of a column of frame rates in files written by kineme."""
 
+HOURLESS = "times without hours are read as minutes and seconds"
+"""Note added if times such as 9:45 may also be hours and minutes."""
+
+HOURS = "times such as 9:45 are read as hours and minutes"
+"""Note added if such times are those of a clock."""
+
 NO_TIMES = "holds neither numbers nor ISO dates such as 2026-01-31T09:30:00.25"
 """Error for a column that is named like times but holds none."""
 
@@ -53,6 +61,7 @@ CLOSE_S = 0.05
 """Seconds by which times may deviate from their span before a new span begins."""
 
 _DATES = (978_307_200.0, 4_102_444_800.0)  # 2001 to 2100, in seconds since 1970
+_ROWS_PER_MINUTE = 55  # of a sensor with a row a second, with some lost
 _SLOWEST = 4.0  # least rows per second in a guessed unit
 
 _TIME = re.compile(
@@ -75,6 +84,7 @@ _WRITTEN = re.compile(
 )
 # Two parts are minutes and seconds; `datetime` would take 00:01.200 for a minute and 0.2 s.
 _ELAPSED = re.compile(r"(?:(\d{1,4}):(?=[0-5]\d:))?(\d{1,4}):([0-5]\d(?:[.,]\d+)?)")
+_TWO_PARTS = re.compile(r"(\d{1,4}):[0-5]\d")
 _LEAP = re.compile(r"(?<=:\d\d:)60(?!\d)")
 
 
@@ -162,10 +172,12 @@ def as_seconds(values: ArrayLike, unit: str | None = None) -> tuple[Floats, str 
         return np.where(np.isnat(stamps), np.nan, stamps.astype(np.int64) / 1e9), None
     if times.dtype.kind in "OUS":
         if any(isinstance(value, str) for value in times.ravel()[:9]):
-            texts = [(value or "").strip() for value in times.tolist()]
+            cells = times.tolist()
+            texts = [cell.strip() if isinstance(cell, str) else "" for cell in cells]
             parsed, _ = parse_texts({0: texts})
             if not parsed:
-                return np.array([parse_date(text) if text else np.nan for text in texts]), None
+                found = np.array([parse_date(text) if text else np.nan for text in texts])
+                return found * (60 if counts_hours(texts) else 1), None
             times = parsed[0]
         elif any(isinstance(value, datetime) for value in times.ravel()[:9]):
             return np.array([_convert_date(value) for value in times.tolist()]), None
@@ -188,6 +200,7 @@ def is_date(text: str) -> bool:
 def parse_date(text: str, *, day_first: bool | None = None) -> float:
     """Return seconds since 1970, or since 0:00 without a date; raise ValueError for other texts.
 
+    Two parts such as ``9:45`` are minutes and seconds, see `counts_hours`.
     A leap second, ``23:59:60``, equals the first second of the next minute, as in Unix time.
     ``day_first`` is the result of `is_day_first`; None for the usual order.
     """
@@ -211,6 +224,31 @@ def parse_date(text: str, *, day_first: bool | None = None) -> float:
                 f"{text[:40]!r} is not an ISO date such as 2026-01-31T09:30:00.25"
             ) from None
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).timestamp()
+
+
+def may_count_hours(texts: Iterable[str]) -> bool:
+    """Return whether all texts are times such as ``9:45``, which may be hours and minutes."""
+    times = [_TWO_PARTS.fullmatch(text) for text in texts if text]
+    return bool(times) and all(time is not None and int(time[1]) < 24 for time in times)
+
+
+def counts_hours(texts: Sequence[str], header: str = "") -> bool:
+    """Return whether the times of rows are hours and minutes rather than minutes and seconds.
+
+    They are if ``header`` says so, if midnight follows 23:59, or if many rows share each time and
+    the first is not 0:00, where elapsed times begin.
+
+    Examples
+    --------
+    >>> counts_hours(["9:45"] * 60 + ["9:46"] * 60), counts_hours(["9:45"] * 20 + ["9:46"] * 20)
+    (True, False)
+    """
+    if not may_count_hours(texts):
+        return False
+    times = [parse_date(text) for text in texts if text]
+    is_midnight = -(24 * 60 - 1) in np.diff(times)
+    is_shared = times[0] > 0 and max(Counter(times).values()) >= _ROWS_PER_MINUTE
+    return bool(re.search("h:mm(?!:)", header.lower())) or is_midnight or is_shared
 
 
 def is_day_first(texts: Sequence[str]) -> bool | None:
