@@ -74,7 +74,8 @@ CASES = {
     "slow until second 6": (only_at(range(0, 300, 25)), EVEN, N, 42, "channel y has no value"),
     "off at second 6": (only_at(range(300)), EVEN, N, 105, "channel y has no value"),
     "off for 3 s": (only_at([*range(200), *range(350, N)]), EVEN, N, 105, "y has no value"),
-    "values in few rows": (only_at([0, 3, 260, 300, 301]), EVEN, N, 0, ""),
+    "values in few rows": (only_at([0, 3, 240, 300, 301]), EVEN, N, 0, ""),
+    "off after a few values": (only_at([0, 3, 5]), EVEN, N, 0, "channel y has no value"),
     "NaN throughout": (np.full((N, 2), np.nan), EVEN, N, N, ""),
     "one row": (ROWS[:1], EVEN[:1], 1, 0, ""),
 }

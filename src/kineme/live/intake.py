@@ -308,20 +308,24 @@ class Intake:
         frames = self.emitted + np.arange(len(holes))
         gaps = np.asarray(holes.all(axis=1))
         for channel in np.flatnonzero(holes.any(axis=0) & self._report_absent(pieces)):
+            if not self.seen[channel]:
+                gaps |= holes[:, channel]
+                continue
             # Steps are nan until the rate of the channel is known.
             steps = np.diff(self.last_at[channel])
             usual, longest = np.median(steps), find_longest_filled(steps, self.fps)
-            if not self.seen[channel]:
-                gaps |= holes[:, channel]
-            elif usual < longest:
-                # Otherwise it has values in few rows, and none is expected.
+            if usual >= longest:
+                continue  # it has values in few rows, and none is expected
+            since = frames - self.last_at[channel, -1]
+            patience = max(longest, ABSENT_S * self.fps)
+            if np.isnan(usual):
+                patience *= 2.5  # it may be as slow as any channel that is filled
+            else:
                 is_fast = longest < LONGEST_S * self.fps + 1
-                late = frames - self.last_at[channel, -1] > longest
-                gaps |= holes[:, channel] & (late | is_fast)
-                since = frames[-1] - self.last_at[channel, -1]
-                if since > max(longest, ABSENT_S * self.fps) and not holes.all():
-                    # Its sensor is off: it counts as one that never had a value.
-                    self.seen[channel], self.last_at[channel] = False, np.nan
+                gaps |= holes[:, channel] & ((since > longest) | is_fast)
+            if since[-1] > patience and not holes.all():
+                # Its sensor is off: it counts as one that never had a value.
+                self.seen[channel], self.last_at[channel] = False, np.nan
         return gaps
 
     def _report_absent(self, pieces: list[Piece]) -> Masks:
