@@ -92,7 +92,7 @@ def find_occurrences(
     # Noise gives a body at rest a speed, and all its poses are similar, so it matches itself.
     smooth, _ = smooth_rows(np.ascontiguousarray(poses, np.float32), preset.frames(SMOOTHING))
     nearest = preset.event_scale / STILL
-    free = free & _find_moving_frames(smooth, preset.frames(preset.max_repetition), nearest)
+    free = free & _find_moving_frames(smooth, max(1, preset.frames(preset.max_repetition)), nearest)
     samples = _sample_frames(np.asarray(poses, np.float64), free, preset)
     if len(samples.seconds) < 2:
         empty = np.empty(0, np.int64)
