@@ -33,7 +33,6 @@ from kineme.library import Example, Library
 from kineme.library.edits import read_edits
 from kineme.library.finding import Named
 from kineme.library.planning import read_recording
-from kineme.library.storage.layout import EDITS, HEAD
 from kineme.methods.segmenter import SegmentOptions
 from kineme.recordings import Motion, Signals
 from kineme.segments.segmentation import Segmentation
@@ -137,7 +136,7 @@ class LibraryApi:
             start_s, stop_s = float(query["start"]), float(query["stop"])
         except (KeyError, ValueError):
             raise ParameterError("a figure needs start and stop in seconds") from None
-        library, name = self._library.library(), query.get("recording", "")
+        library, name = self._library.library, query.get("recording", "")
         if not 0 <= start_s < stop_s:
             raise ParameterError("the stop of a figure must be after its start")
         with self._reading:  # a page requests many figures of a recording at once
@@ -155,37 +154,27 @@ class StudioLibrary:
         self._lock = threading.Lock()
         self._searching = threading.Lock()
         self._newest_search = object()
-        self._stamp = self._read_stamp()
-        self._library = Library(folder)
+        self.library = Library(folder)
         self._history = LibraryHistory(folder)
         self._tables: LibraryTables | None = None
 
-    def library(self) -> Library:
-        """Return the library, reloaded if it has changed on the disk."""
-        with self._lock:
-            stamp = self._read_stamp()
-            if stamp != self._stamp:
-                self._library, self._stamp = Library(self._folder), stamp
-                self._tables = None
-            return self._library
-
     def find_table(self, path: Path) -> Segmentation | None:
         """Return the library's table of a recording; None if it has none."""
-        library = self.library()
+        segments = self.library.table("segments")
         with self._lock:
-            if self._tables is None:
-                self._tables = LibraryTables(library)
+            if self._tables is None or self._tables.segments is not segments:
+                self._tables = LibraryTables(self.library)
             tables = self._tables
         return tables.find_table(path)
 
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
         """Return the options for reading and segmenting its recordings."""
-        library = self.library()
+        library = self.library
         return library.read_options, library.segment_options
 
     def files(self) -> list[Path]:
         """Return the files of its recordings, without those at URLs."""
-        library = self.library()
+        library = self.library
         paths = (library.path_of(name) for name in library.recordings["recording"])
         return [path for path in paths if not is_remote(path)]
 
@@ -194,7 +183,7 @@ class StudioLibrary:
 
     def state(self) -> LibraryState:
         """Return everything that the page shows except the figures."""
-        library = self.library()
+        library = self.library
         columns = library.recordings
         names = ("recording", "path", "vocabulary", "duration_s")
         rows = zip(*(columns[name] for name in names), strict=True)
@@ -218,15 +207,13 @@ class StudioLibrary:
 
     def edit(self, edit: LibraryEdit) -> LibraryState:
         """Apply an edit, save it, and return the new state."""
-        library = self.library()
         with self._lock:
             before = self._history.present()
             if isinstance(edit, UndoEdit):
                 self._history.undo()
-                self._library = Library(self._folder)
+                self.library = Library(self._folder)
             else:
-                self._history.add(_make_edit(library, edit), before)
-            self._stamp, self._tables = self._read_stamp(), None
+                self._history.add(_make_edit(self.library, edit), before)
         return self.state()
 
     def update_tables(self, recordings: OpenRecordings, *, names: bool) -> TablesChanged:
@@ -280,7 +267,7 @@ class StudioLibrary:
 
         ParameterError without anything to search for.
         """
-        library, this_search = self.library(), object()
+        library, this_search = self.library, object()
         self._newest_search = this_search
 
         def check() -> None:
@@ -339,16 +326,11 @@ class StudioLibrary:
 
     def _find_file(self, recording: str) -> Path | None:
         """Return the file of a recording of the library, if it exists."""
-        library = self.library()
+        library = self.library
         if recording not in {*library.recordings["recording"]}:
             return None
         path = library.path_of(recording)
         return None if is_remote(path) or not path.is_file() else path
-
-    def _read_stamp(self) -> tuple[int, ...]:
-        """Return times that change when the library is written."""
-        paths = (self._folder / name for name in (HEAD, EDITS))
-        return tuple(path.stat().st_mtime_ns if path.exists() else 0 for path in paths)
 
 
 class LibraryFolder(Folder):

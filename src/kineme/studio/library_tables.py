@@ -54,10 +54,10 @@ HISTORY = "library.json"
 
 
 class LibraryTables:
-    """Segment tables of a library at the time it was opened."""
+    """Segment tables of a library; ``segments`` is the table that they were made from."""
 
     def __init__(self, library: Library):
-        table = library.table("segments")
+        self.segments = table = library.table("segments")
         names = np.array(table.column("recording").to_pylist(), object)
         # Rows of a recording follow each other: edges are where the name changes.
         edges = [0, *(np.flatnonzero(names[1:] != names[:-1]) + 1).tolist(), len(names)]
