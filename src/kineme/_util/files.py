@@ -237,6 +237,15 @@ def refuse_link(path: Path) -> None:
         raise LinkError(path, "is a link, which could lead out of the folder: remove it")
 
 
+def read_file_stamp(path: Path) -> tuple[int, int, int] | None:
+    """Return values that change when a file is written; None if it is missing."""
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns, status.st_size
+
+
 def refuse_pipe(path: str | os.PathLike[str]) -> None:
     """Raise ReadError if a local path is a pipe or device, since reading could block."""
     if _is_pipe(path):

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
-from kineme._util.files import is_remote
+from kineme._util.files import is_remote, read_file_stamp
 from kineme.errors import ParameterError, ReadError
 from kineme.formats import ReadOptions
 from kineme.library.edits import Edits, apply_edits, read_edits
@@ -39,7 +39,7 @@ class OpenTables:
 
     def __init__(self, folder: Path):
         self.folder = folder
-        self._stamp = _read_stamp(folder)  # first, so that a later change is noticed
+        self._stamps = _read_stamps(folder)  # first, so that a later change is noticed
         self.head = read_head(folder)
         try:
             self._computed = self._read()
@@ -95,12 +95,12 @@ class OpenTables:
 
     def is_outdated(self) -> bool:
         """Return whether another process has built or edited the library; False for remote ones."""
-        return _read_stamp(self.folder) != self._stamp
+        return _read_stamps(self.folder) != self._stamps
 
     def write(self, edits: Edits) -> None:
         """Write edits to disk and use them."""
         edits.write(self.folder)
-        self._stamp = _read_stamp(self.folder)
+        self._stamps = _read_stamps(self.folder)
         self._use_edits(edits)
 
     def _use_edits(self, edits: Edits) -> None:
@@ -123,11 +123,9 @@ class OpenTables:
         return tables
 
 
-def _read_stamp(folder: Path) -> list[tuple[int, int]]:
+def _read_stamps(folder: Path) -> list[tuple[int, int, int] | None]:
     """Return values that change if a local library is written; empty for a remote one."""
-    paths = [] if is_remote(folder) else [folder / HEAD, folder / EDITS]
-    states = (path.stat() for path in paths if path.exists())
-    return [(state.st_mtime_ns, state.st_ino) for state in states]
+    return [] if is_remote(folder) else [read_file_stamp(folder / name) for name in (HEAD, EDITS)]
 
 
 class Cluster(NamedTuple):

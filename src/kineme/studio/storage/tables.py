@@ -30,7 +30,13 @@ from pathlib import Path
 
 import msgspec
 
-from kineme._util.files import CORRECTED, atomic_write, refuse_pipe, translate_read_errors
+from kineme._util.files import (
+    CORRECTED,
+    atomic_write,
+    read_file_stamp,
+    refuse_pipe,
+    translate_read_errors,
+)
 from kineme.errors import KinemeError, ParameterError, ReadError, WriteError
 from kineme.labels import json_table, read_segments
 from kineme.segments.history import History
@@ -57,7 +63,7 @@ class TableFile:
 
     def __init__(self, path: Path):
         self.path = path
-        self._stamp = _read_stamp(path)
+        self._stamp = read_file_stamp(path)
         self._digest = _compute_digest(path)
 
     @property
@@ -67,13 +73,13 @@ class TableFile:
 
     def has_changed(self) -> bool:
         """Return whether another program has changed the file."""
-        if _read_stamp(self.path) == self._stamp:
+        if read_file_stamp(self.path) == self._stamp:
             return False
         return _compute_digest(self.path) != self._digest
 
     def read(self) -> Segmentation:
         """Return the table in the file and remember its content."""
-        self._stamp, self._digest = _read_stamp(self.path), _compute_digest(self.path)
+        self._stamp, self._digest = read_file_stamp(self.path), _compute_digest(self.path)
         return read_segments(self.path, format="json")
 
     def write(self, content: bytes) -> None:
@@ -87,7 +93,8 @@ class TableFile:
                 file.write(content)
             if self.has_changed():
                 raise ChangedOnDiskError
-            stamp = _read_stamp(draft)  # unchanged by the rename; later another program may write
+            # The rename leaves it unchanged; after that, another program may write the file.
+            stamp = read_file_stamp(draft)
         self._stamp, self._digest = stamp, sha256(content).digest()
 
 
@@ -148,15 +155,6 @@ def _list_candidate_paths(listed: ListedRecording) -> Iterator[Path]:
     base = listed.table_base
     for number in count(2):
         yield base.with_name(f"{base.name}.{number}{CORRECTED}")
-
-
-def _read_stamp(path: Path) -> tuple[int, int, int] | None:
-    """Return values that change when a file is written; None if it is missing."""
-    try:
-        status = path.stat()
-    except OSError:
-        return None
-    return status.st_ino, status.st_mtime_ns, status.st_size
 
 
 def _compute_digest(path: Path) -> bytes | None:
