@@ -240,20 +240,20 @@ def _select_comparable(first: Cycles, second: Cycles) -> tuple[Cycles, Cycles]:
     shared = {*first.groups} & {*second.groups}
     # Cluster numbers of two recordings are unrelated, but a single group of each may be compared.
     if len(first.groups) > 1 or len(second.groups) > 1:
-        one, other = (each.provenance.get("unnamed", {}) for each in (first, second))
-        shared = {group for group in shared if one.get(group) == other.get(group)}
+        unnamed = [each.provenance.get("unnamed", {}) for each in (first, second)]
+        shared = {group for group in shared if unnamed[0].get(group) == unnamed[1].get(group)}
     if not shared:
         raise ParameterError(
             f"the sessions have no group in common: {', '.join(first.groups) or 'none'} and "
-            f"{', '.join(second.groups) or 'none'}. Give clusters the same names, since their "
-            "numbers are those of one recording (in the "
-            "studio, or with `kineme library name` and `export` for --segments), or use "
-            "--common (common=True) if equal numbers are equal movements"
+            f"{', '.join(second.groups) or 'none'}. Numbers of clusters hold within one recording: "
+            "give clusters the same names (in the studio, or with `kineme library name` and "
+            "`export` for --segments), or use --common (common=True) if equal numbers are equal "
+            "movements"
         )
-    names = list(shared)
-    return first.select(np.isin(first.columns["group"], names)), second.select(
-        np.isin(second.columns["group"], names)
+    one, other = (
+        each.select(np.isin(each.columns["group"], list(shared))) for each in (first, second)
     )
+    return one, other
 
 
 def _join_sessions(keys: Sequence[str], first: Columns, second: Columns) -> Columns:

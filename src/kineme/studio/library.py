@@ -169,13 +169,12 @@ class StudioLibrary:
 
     def options(self) -> tuple[ReadOptions, SegmentOptions]:
         """Return the options for reading and segmenting its recordings."""
-        library = self.library
-        return library.read_options, library.segment_options
+        return self.library.read_options, self.library.segment_options
 
     def files(self) -> list[Path]:
         """Return the files of its recordings, without those at URLs."""
-        library = self.library
-        paths = (library.path_of(name) for name in library.recordings["recording"])
+        names = self.library.recordings["recording"]
+        paths = map(self.library.path_of, names)
         return [path for path in paths if not is_remote(path)]
 
     def as_folder(self) -> LibraryFolder:
